@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from faultspace.numeric.audit import reference
-from faultspace.numeric.audit.checks.laws import ASKED, LEVEL, space_errors
+from faultspace.numeric.audit.checks.laws import ASKED, LEVEL, SAME, space_errors
 from faultspace.numeric.audit.vectors.shipped_vectors import shipped
 
 
@@ -31,9 +31,7 @@ def main() -> None:
             continue
         sines, undecided = list[float](), 0
         for number in range(arguments.trials):
-            found = [
-                one.got for one in space_errors(replace(vector, seed=arguments.seed + number), False, reference.identified_fault_space)
-            ]
+            found = [one.got for one in space_errors(replace(vector, seed=arguments.seed + number), SAME, reference.identified_fault_space)]
             undecided += len(found) < 2
             sines += found[1:]
         middle, most, largest = float(np.median(sines)), float(np.quantile(sines, 0.9)), max(largest, max(sines))

@@ -16,9 +16,40 @@ from ..making.kinds_of_trouble import KINDS
 from ..names import named, patterned
 from ..records import Check
 from ..vectors.trouble import SEED
-from . import consistency, excitation, faults, forms, growth, identification, laws, manners, refusals, structure, surroundings, trouble
+from . import (
+    consistency,
+    excitation,
+    faults,
+    forms,
+    growth,
+    identification,
+    laws,
+    manners,
+    misfits,
+    refusals,
+    sequences,
+    silence,
+    structure,
+    surroundings,
+    trouble,
+)
 
-MODULES = (surroundings, identification, consistency, faults, excitation, structure, refusals, manners, forms, growth, laws)
+MODULES = (
+    surroundings,
+    identification,
+    consistency,
+    faults,
+    excitation,
+    structure,
+    refusals,
+    misfits,
+    silence,
+    manners,
+    forms,
+    sequences,
+    growth,
+    laws,
+)
 
 
 def all_checks(seed: int = SEED) -> Iterator[Check]:

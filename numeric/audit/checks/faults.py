@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from faultspace.exact.algebra.matrices import Matrix, beside
+from faultspace.exact.algebra.matrices import Matrix, beside, rank
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.structure.signals import hankel
 from faultspace.exact.system.systems import ResidualSystem
@@ -43,6 +43,8 @@ SUFFIXES: dict[str, tuple[str, tuple[str, ...]]] = {
     "-time-shift": (", depending on where the record begins", ("time-shift",)),
     "-split-data": (", depending on which half of the record is read", ("first-half", "second-half")),
 }
+MANY = 16  # windows
+MANY_OF = ("one-fault", "two-faults")  # exact ranks of long windows take a second
 Measure = Callable[[FaultVector, Function], Iterator[Measurement]]
 
 
@@ -53,6 +55,9 @@ def checks() -> Iterator[Check]:
         yield from _in_views("residual-free-of-input", "residual", vector, "proposition-1", effect, residual_off)
         effect = "wrong ranks of windows: wrong number of faults, wrong lag"
         yield from _in_views("window-ranks", "window_ranks", vector, "window-ranks", effect, window_ranks_off)
+        measure = partial(_many_windows, vector)
+        if vector.slug in MANY_OF:
+            yield Check("window-ranks-many-windows", "window_ranks", vector.slug, "window-ranks", effect, Severity.SILENT, measure)
         yield from _in_views("fault-dimension", "fault_dimension", vector, "proposition-3", "a wrong number of faults", count_off)
         yield _as_many_as_outputs(vector)
         effect = "fault matrices that do not explain the data, or true ones left out"
@@ -109,6 +114,17 @@ def _no_columns(rows: int) -> Matrix:
 def window_ranks_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
     """Ask for the ranks R_s for s = 1, 2, ... and compare them."""
     yield from ranks_off(function(floats(vector.r), len(vector.ranks)), vector.ranks)
+
+
+def _many_windows(vector: FaultVector, function: Function) -> Iterator[Measurement]:
+    due = many_ranks(vector)
+    yield from ranks_off(function(floats(vector.r), len(due)), due)
+
+
+def many_ranks(vector: FaultVector) -> tuple[int, ...]:
+    """Return the ranks of all windows that are wider than high, MANY at most, which are clear in those of MANY_OF."""
+    N, p = vector.r.nrows, vector.system.p
+    return tuple(rank(hankel(vector.r, s)) for s in range(1, min(MANY, N // (p + 1)) + 1))
 
 
 def ranks_off(answer: Any, due: tuple[int, ...]) -> Iterator[Measurement]:

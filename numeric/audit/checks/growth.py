@@ -9,7 +9,8 @@ The bound on the exponent is midway between linear and quadratic. What stays und
 the smaller cost is taken to be at least the floor's share, because small amounts drown in what the process holds anyway. Time may leap
 where data outgrow a cache: only a growth that goes on to twice the length is called one.
 
-The records are those of the kind of trouble with whole numbers, driven by signs: small integers, exact at any length, and so is the truth.
+The records are those of the kinds of trouble with whole numbers, driven by signs: integers, exact at any length, and so is the truth. One
+forgets everything in a few samples, so that every piece of its record looks like another; one forgets nothing.
 Coefficients, Markov parameters, residuals and fault signals are whole numbers then, and right is what is nearer to them than to any other;
 the fault space is held against the bound that its own record gives.
 """
@@ -48,6 +49,9 @@ MEMORY_FLOOR = 32e6  # bytes
 TIME_FLOOR = 0.1  # seconds
 EVERY = 0.004  # seconds between two looks at the memory
 SEED = 20250523
+FORGETTING = "whole-numbers"
+KINDS = {FORGETTING: "", "whole-numbers-that-add-up": "-that-add-up"}  # and what the name of the record ends in
+STEP, LASTS = 100, 700  # the size of the steps in a residual, and the samples that each lasts
 NEAREST = 0.5  # from a whole number: what is nearer is no other
 
 
@@ -124,7 +128,8 @@ def checks() -> Iterator[Check]:
     for function in ("identify", "residual", "window_ranks", "fault_dimension", "fault_space", "reconstruct"):
         yield _grows("memory-grows-with-N", function, "memory runs out on records of ordinary length")
         yield _grows("time-grows-with-N", function, "no answer in bearable time on records of ordinary length")
-        yield _right(function)
+        for kind, suffix in KINDS.items():
+            yield _right(function, kind, suffix)
 
 
 def _grows(slug: str, name: str, effect: str) -> Check:
@@ -144,17 +149,24 @@ def _grows(slug: str, name: str, effect: str) -> Check:
     return Check(slug, name, f"N{LENGTHS[0]}-N{LENGTHS[1]}", None, effect, Severity.NUISANCE, measure, nearness=1.0)
 
 
-def _right(name: str) -> Check:
+def _right(name: str, kind: str, suffix: str) -> Check:
     def measure(function: Function) -> Iterator[Measurement]:
-        arguments = question(name, LENGTHS[1])
-        yield from _OFF[name](arguments, function(*arguments))
+        arguments = question(name, LENGTHS[1], kind)
+        if name == "residual":
+            arguments = arguments[0] + stepping(arguments[0].shape), *arguments[1:]
+        yield from _OFF[name](kind, arguments, function(*arguments))
 
     effect = "wrong answers on records of ordinary length"
-    return Check("right-on-long-records", name, f"N{LENGTHS[1]}", None, effect, Severity.SILENT, measure, nearness=1.0)
+    return Check("right-on-long-records", name, f"N{LENGTHS[1]}{suffix}", None, effect, Severity.SILENT, measure, nearness=1.0)
 
 
-def _model_off(arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
-    model = _whole_numbers().model
+def stepping(shape: tuple[int, int]) -> Array:
+    """Return a fault in every output that comes and goes, and lasts when it comes: what is fitted to a piece of it fits no other piece."""
+    return np.repeat(STEP * (np.arange(shape[0]) // LASTS % 2)[:, None], shape[1], axis=1).astype(float)
+
+
+def _model_off(kind: str, arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
+    model = _whole_numbers(kind).model
     assert model is not None
     n, n_u, p = model.order, model.B.ncols, model.C.nrows
     found, count = matrices(answer, n, n_u, p), 2 * n + 2
@@ -165,29 +177,34 @@ def _model_off(arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]
     yield Measurement("characteristic polynomial", float(np.max(off)), NEAREST)
 
 
-def _residual_off(arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
-    """The input is the fault, so that nothing is left but a free response, which a nilpotent A has forgotten after n samples."""
-    got = as_signal(answer, arguments[0].shape)
-    yield Measurement("r", float(np.max(np.abs(got[len(arguments[2]) :]))), NEAREST)
+def _residual_off(kind: str, arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
+    """The input is the fault of the others, so that the steps are left, and a free response, which is C A^n x from sample n on: A^n is a
+    projection."""
+    y, _, A, _, C, _ = arguments
+    n = len(A)
+    off = (as_signal(answer, y.shape) - stepping(y.shape))[n:]
+    lasting = C @ np.linalg.matrix_power(A, n)
+    free = lasting @ np.linalg.pinv(lasting) @ off.mean(axis=0)
+    yield Measurement("r", float(np.max(np.abs(off - free))), NEAREST)
 
 
-def _ranks_off(arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
-    yield from ranks_off(answer, _fault().ranks)
+def _ranks_off(kind: str, arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
+    yield from ranks_off(answer, _fault(kind).ranks)
 
 
-def _count_off(arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
-    yield Measurement("n_v", abs(as_number(answer) - _fault().n_v), 0.0)
+def _count_off(kind: str, arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
+    yield Measurement("n_v", abs(as_number(answer) - _fault(kind).n_v), 0.0)
 
 
-def _space_off(arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
+def _space_off(kind: str, arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
     r, A, C, n_v, block_rows = arguments
     bound = noise_free_fault_space(r, A, C, n_v=n_v, block_rows=block_rows).error_bound
     assert bound is not None
-    yield from spaces_off(answer, _fault().space, bound)
+    yield from spaces_off(answer, _fault(kind).space, bound)
 
 
-def _signal_off(arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
-    due, late = _driven(len(arguments[0]), _fault().system.m), _fault().v.nrows - _fault().trusted
+def _signal_off(kind: str, arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
+    due, late = _driven(len(arguments[0]), _fault(kind).system.m), _fault(kind).v.nrows - _fault(kind).trusted
     got = as_signal(answer, due.shape)
     yield Measurement("v", float(np.max(np.abs(got - due)[: len(due) - late])), NEAREST)
 
@@ -200,7 +217,7 @@ def as_signal(answer: Any, shape: tuple[int, ...]) -> Array:
         raise Broken(f"a signal of shape {shape} is due, and this is none") from None
 
 
-_OFF: dict[str, Callable[[tuple[Any, ...], Any], Iterator[Measurement]]] = {
+_OFF: dict[str, Callable[[str, tuple[Any, ...], Any], Iterator[Measurement]]] = {
     "identify": _model_off,
     "residual": _residual_off,
     "window_ranks": _ranks_off,
@@ -210,12 +227,12 @@ _OFF: dict[str, Callable[[tuple[Any, ...], Any], Iterator[Measurement]]] = {
 }
 
 
-def _whole_numbers() -> Trouble:
-    return next(one for one in default_troubles() if one.kind == "whole-numbers")
+def _whole_numbers(kind: str) -> Trouble:
+    return next(one for one in default_troubles() if one.kind == kind)
 
 
-def _fault() -> FaultVector:
-    vector = _whole_numbers().faults
+def _fault(kind: str) -> FaultVector:
+    vector = _whole_numbers(kind).faults
     assert vector is not None
     return vector
 
@@ -232,17 +249,17 @@ def _time(function: Function, arguments: tuple[Any, ...]) -> float:
     return spent.seconds
 
 
-def question(name: str, length: int) -> tuple[Any, ...]:
+def question(name: str, length: int, kind: str = FORGETTING) -> tuple[Any, ...]:
     """Return the function's arguments with a record of that length, driven by signs."""
     if name == "identify":
-        model = _whole_numbers().model
+        model = _whole_numbers(kind).model
         assert model is not None
         u = _driven(length, model.B.ncols)
-        return _response(u, *driven_system(name)), u, model.order, model.block_rows
-    fault = _fault_of(name)
-    A, F, C, G = (floats(M) for M in driven_system(name))
+        return _response(u, *driven_system(name, kind)), u, model.order, model.block_rows
+    fault = _fault_of(name, kind)
+    A, F, C, G = (floats(M) for M in driven_system(name, kind))
     v = _driven(length, fault.system.m)
-    r = _response(v, *driven_system(name))
+    r = _response(v, *driven_system(name, kind))
     arguments: dict[str, tuple[Any, ...]] = {
         "residual": (r, v, A, F, C, G),
         "window_ranks": (r, len(fault.ranks)),
@@ -253,20 +270,20 @@ def question(name: str, length: int) -> tuple[Any, ...]:
     return arguments[name]
 
 
-def driven_system(name: str) -> tuple[Matrix, Matrix, Matrix, Matrix]:
+def driven_system(name: str, kind: str = FORGETTING) -> tuple[Matrix, Matrix, Matrix, Matrix]:
     """Return the system (A, B, C, D), or (A, F, C, G), that the signs drive in the records of a function."""
     if name == "identify":
-        model = _whole_numbers().model
+        model = _whole_numbers(kind).model
         assert model is not None
         return model.A, model.B, model.C, model.D
-    system = _fault_of(name).system
+    system = _fault_of(name, kind).system
     return system.A, system.F, system.C, system.G
 
 
-def _fault_of(name: str) -> FaultVector:
-    # The count is asked of the first vector: its record has no whole numbers, and one fault as well.
-    fault: FaultVector = shipped("faults")[0] if name == "fault_dimension" else _fault()
-    return fault
+def _fault_of(name: str, kind: str) -> FaultVector:
+    # The count is asked of the first vector, too: its record has no whole numbers, and one fault as well.
+    first: FaultVector = shipped("faults")[0]
+    return first if (name, kind) == ("fault_dimension", FORGETTING) else _fault(kind)
 
 
 def _driven(length: int, channels: int) -> Array:

@@ -23,6 +23,7 @@ from ..vectors.rationals import floats, fractions, scaled
 from ..vectors.shipped_vectors import POINTS, IdentificationVector, shipped
 
 SCALES = (-12, -6, 6)  # powers of ten
+FAR = Fraction(1, 10**8)  # as pascals in kilobars
 LONG = 20  # block rows of a long window
 RECOVERY = "the model is wrong although the data determine it: every prediction and every residual made with it"
 
@@ -39,6 +40,9 @@ def checks() -> Iterator[Check]:
             yield _recovery("permuted-channels", effect, vector, range(p)[::-1], range(n_u)[::-1], ones * p, ones * n_u)
         units = [Fraction(10) ** (4 * (j % 2) - 6) for j in range(p)], [Fraction(10) ** (6 - 3 * j) for j in range(n_u)]
         yield _recovery("other-units", "the answer depends on the units of the channels", vector, range(p), range(n_u), *units)
+        if p > 1:
+            far = [FAR if j == p - 1 else Fraction(1) for j in range(p)], [Fraction(1)] * n_u
+            yield _recovery("far-units", "an output in large units is lost", vector, range(p), range(n_u), *far)
         for power in SCALES:
             size = [Fraction(10) ** power]
             effect = "the answer depends on the size of the signals"

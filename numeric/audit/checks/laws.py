@@ -11,7 +11,7 @@ answer is. The space is asked with n_v given, and under noise alone: the error o
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import Any
 
@@ -36,7 +36,7 @@ LEVEL = 0.35
 LOUD = 300.0
 ASKED = ("one-fault-in-noise", "two-faults-in-noise")
 SEED = 1000  # added to that of the record for the signs of the input
-UNITS = (1e-3, 1.0, 1e3)  # of outputs, as milli and kilo are
+SAME, UNITS, SMALL = (1.0,), (1e-3, 1.0, 1e3), (1e-12,)  # of outputs: as they are; as milli and kilo are; all small
 WINDOW = 10  # samples of a response
 
 
@@ -45,8 +45,14 @@ def checks() -> Iterator[Check]:
     for vector in shipped("noisy"):
         if vector.slug not in ASKED:
             continue
-        for slug, noise, units in (("", 0.0, False), ("-noisy", LOUD, False), ("-noisy-other-units", LOUD, True)):
-            when = " whenever outputs have unlike units" if units else ""
+        for slug, noise, units, when in (
+            ("", 0.0, SAME, ""),
+            ("-noisy", LOUD, SAME, ""),
+            ("-noisy-other-units", LOUD, UNITS, " whenever outputs have unlike units"),
+            ("-small-units", 0.0, SMALL, " whenever outputs are small"),
+        ):
+            if units == SMALL and vector.slug != ASKED[0]:
+                continue
             counted, found = partial(_count, vector, noise, units), partial(space_errors, vector, units)
             effect = f"a wrong number of faults{when}"
             yield Check(f"faults-of-record{slug}", "count_faults", vector.slug, "proposition-3", effect, Severity.SILENT, counted)
@@ -59,16 +65,22 @@ def checks() -> Iterator[Check]:
     yield from _refusals(shipped("noisy")[0])
 
 
-def record(vector: NoisyVector, noise: float, units: bool = False) -> tuple[Array, Array]:
-    """Return y (N, p) and u (N, 1): faults, the input, and `noise` times the noise of the vector; outputs in unlike units where asked."""
+def record(vector: NoisyVector, noise: float, units: Sequence[float] = SAME, acting: float = 1.0) -> tuple[Array, Array]:
+    """Return y (N, p) and u (N, 1): faults, the input, and `noise` times the noise of the vector; outputs times `units`, taken in turn, and
+    the faults times `acting`."""
     system = vector.system
     A, C, F, G = (floats(M) for M in (system.A, system.C, system.F, system.G))
     B, D = _input_matrices(F, G)
     u = signs(vector.seed + SEED, vector.samples).reshape(-1, 1)
     v, w = vector.drawn()
     model = StateSpaceModel(A, np.hstack([F, B]), C, np.hstack([G, D]))
-    y = model.simulate(np.hstack([v, u])) + noise * float(vector.noise) * w
-    return (y * np.resize(UNITS, len(C)) if units else y), np.ascontiguousarray(u)
+    y = model.simulate(np.hstack([acting * v, u])) + noise * float(vector.noise) * w
+    return y * np.resize(units, len(C)), np.ascontiguousarray(u)
+
+
+def nothing_acts(vector: NoisyVector, noise: float) -> tuple[Array, Array, int]:
+    """Return y and u with no fault in them, and the order."""
+    return *record(vector, noise, acting=0.0), vector.system.n
 
 
 def _input_matrices(F: Array, G: Array) -> tuple[Array, Array]:
@@ -76,7 +88,7 @@ def _input_matrices(F: Array, G: Array) -> tuple[Array, Array]:
     return F[:, :1] * turned, 0.5 * G[::-1, :1]
 
 
-def _count(vector: NoisyVector, noise: float, units: bool, function: Function) -> Iterator[Measurement]:
+def _count(vector: NoisyVector, noise: float, units: Sequence[float], function: Function) -> Iterator[Measurement]:
     y, u = record(vector, noise, units)
     try:
         got = function(y, u, vector.system.n)
@@ -88,7 +100,7 @@ def _count(vector: NoisyVector, noise: float, units: bool, function: Function) -
     yield compared_count("n_v", got, vector.system.m)
 
 
-def space_errors(vector: NoisyVector, units: bool, function: Function) -> Iterator[Measurement]:
+def space_errors(vector: NoisyVector, units: Sequence[float], function: Function) -> Iterator[Measurement]:
     system = vector.system
     y, u = record(vector, LOUD, units)
     try:
@@ -97,7 +109,7 @@ def space_errors(vector: NoisyVector, units: bool, function: Function) -> Iterat
         yield Measurement("undecided, as it may be", 0.0, 0.0)
         return
     true = floats(fault_space(System(system.A, system.F, system.C, system.G)).basis).T
-    scale = np.resize(UNITS, system.p) if units else np.ones(system.p)
+    scale = np.resize(units, system.p)
     wanted = _responses(floats(system.A), floats(system.C), true, np.ones(system.p))
     try:
         A, C, columns = (np.atleast_2d(np.asarray(part, dtype=float)) for part in answer)

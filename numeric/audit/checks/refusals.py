@@ -131,6 +131,9 @@ def _of_faults(vector: FaultVector) -> Iterator[Check]:
     twice = "one of many fault signals that fit, without a word"
     F2, G2 = F[:, [0, 0]], G[:, [0, 0]]
     yield _refuses("refuses-same-fault-twice", "reconstruct", slug, twice, lambda: (r(), A, F2, C, G2, x0), "trajectory-recovered")
+    wide = "one of many fault signals that fit, without a word"
+    first = r()[:, :1], A, F, C[:1], G[:1], x0
+    yield _refuses("refuses-more-faults-than-outputs", "reconstruct", slug, wide, lambda: first, "trajectory-recovered")
     none = "answers about no system"
     yield _refuses("refuses-nan-model", "residual", slug, none, lambda: (r(), r()[:, : system.m], A * np.nan, F, C, G))
     yield _refuses("refuses-nan-model", "fault_space", slug, none, lambda: (r(), A * np.nan, C, n_v, s))

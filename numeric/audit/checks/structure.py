@@ -22,12 +22,12 @@ def checks() -> Iterator[Check]:
 
 
 def of_vector(vector: StructureVector) -> Iterator[Check]:
-    """Yield the three checks of a vector, those of finite zeros where it is left-invertible."""
+    """Yield the three checks of a vector, that of finite zeros where it is left-invertible or has some."""
     effect = "independent faults are taken for dependent or the reverse"
     yield _check("normal-rank", vector, "proposition-3", effect, _ranks, "normal_rank", "left_invertible")
     effect = "wrong delays, wrong n_v + zeta: the fault space has another dimension than told"
     yield _check("infinite-zeros", vector, "theorem-2", effect, _infinite, "infinite_zero_orders")
-    if vector.left_invertible:
+    if vector.left_invertible or vector.zeros:
         effect = "faults that no output shows are missed, or seen where there are none"
         yield _check("finite-zeros", vector, "window-ranks", effect, _finite, "finite_zeros")
 

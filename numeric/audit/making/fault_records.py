@@ -23,8 +23,10 @@ from faultspace.exact.structure.signals import excitation_matrix, hankel, simula
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.exact.system.windows import window_matrix
 
+from ...model.compression import EPS
 from ...model.models import StateSpaceModel
 from ...model.residuals import residual
+from ...rounding.conditioning import SMALL
 from ...rounding.residual_conditioning import fault_signal_error, fitted_state_error
 from ...signal.reconstruction import reconstruct_fault
 from ...space.by_ranks import noise_free_fault_space
@@ -154,6 +156,34 @@ def signal_bound(r: Matrix, system: ResidualSystem, x0: Matrix) -> float | None:
         return None
     bound = fault_signal_error(floats(r), A, F, C, G, found, x0=start)
     return upward(bound) if bound < TELLING * float(np.linalg.norm(found.v)) else None
+
+
+def leading_signal_bound(r: Matrix, system: ResidualSystem, x0: Matrix, trusted: int, outside: Sequence[float]) -> float | None:
+    """Return the bound on the first `trusted` samples of v where the zeros outside the unit circle have the moduli `outside`; None where
+    it asks for nothing.
+
+    v solves T v = r - O x(0), T block Toeplitz. Rounding moves r - O x(0) - T v by SMALL N eps (|r| + |O x(0)| + |T| |v|) at most, and so
+    v(k) by that times the norm of its rows of the pseudo-inverse; who goes forward from sample to sample multiplies by the largest zero
+    each time. Both take T as it is; who takes the direction that hardly shows for rounding adds a multiple of it, which grows to the end as
+    the powers of the least of them, and is there no larger than the signal.
+    """
+    A, F, C, G = (floats(M) for M in (system.A, system.F, system.C, system.G))
+    data, N, m = floats(r), r.nrows, system.m
+    model = StateSpaceModel(A, F, C, G)
+    pulse = np.asarray(model.markov(N))
+    T = np.zeros((N, system.p, N, m))
+    for k in range(N):
+        T[k:, :, k] = pulse[: N - k]
+    matrix_of = T.reshape(N * system.p, N * m)
+    free = np.asarray(model.simulate(np.zeros((N, m)), floats(x0).ravel()))
+    inverse = np.linalg.pinv(matrix_of, rcond=EPS)
+    v = (inverse @ (data - free).ravel()).reshape(N, m)
+    moved = SMALL * N * EPS * (np.linalg.norm(data) + np.linalg.norm(free) + np.linalg.norm(matrix_of) * np.linalg.norm(v))
+    rows = np.linalg.norm(inverse.reshape(N, m, -1), axis=(1, 2))
+    forward = rows[0] * max(outside) ** np.arange(trusted)
+    kept = np.linalg.norm(v) * min(outside) ** (np.arange(trusted) - float(N))
+    bound = float(np.linalg.norm(moved * np.maximum(rows[:trusted], forward) + kept))
+    return upward(bound) if bound < TELLING * float(np.linalg.norm(v[:trusted])) else None
 
 
 def singular_values(H: Matrix) -> tuple[float, float]:

@@ -3,14 +3,14 @@
 Each generator takes a source of random numbers and gives a system; `drawn` tries again, with numbers that follow from the seed and the
 attempt alone, until the conditions hold that the question needs. Those are decided exactly, so that every machine draws the same systems.
 
-    Kind      its slug, what is hard about it, the generator, and the functions that it concerns
+    Kind      its slug, what is hard about it, the generator, the functions that it concerns, and how its fault moves
     KINDS     all of them
     STRUCTURE, MODEL, RANKS, COUNT, SPACE, SIGNAL    what may be asked
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from random import Random
@@ -25,12 +25,16 @@ from .planting import (
     beside,
     channel,
     delay,
+    digits,
     drawn_dyadic,
     factor,
     hidden,
+    late,
     pair,
+    resized,
     scaled_direct,
     series,
+    spiked,
     tall,
     tall_without_zeros,
     times,
@@ -46,18 +50,21 @@ STRUCTURE, MODEL, RESIDUAL, RANKS, COUNT, SPACE, SIGNAL = (
     "reconstruct",
 )
 FAULTS = (STRUCTURE, RESIDUAL, RANKS, COUNT, SPACE, SIGNAL)
+RECORDS = (RESIDUAL, RANKS, COUNT, SPACE, SIGNAL)
 ALL = (*FAULTS, MODEL)
 Polynomial = list[Fraction]
 
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of trouble: `what` is hard, in words; `drawn` makes a system; `asks` names the functions that it concerns."""
+    """A kind of trouble: `what` is hard, in words; `drawn` makes a system; `asks` names the functions that it concerns; `moves` gives the
+    fault signal of the record for a number of samples that suffices, and of faults."""
 
     slug: str
     what: str
     drawn: Callable[[Random], ResidualSystem]
     asks: tuple[str, ...] = ALL
+    moves: Callable[[Random, int, int], Matrix] = digits
 
 
 # -- zeros ------------------------------------------------------------------------------------------------------------------------------
@@ -267,6 +274,49 @@ def _nilpotent(rng: Random) -> ResidualSystem:
     return hidden(rng, ResidualSystem(matrix(A, 3), *(drawn_dyadic(rng, *shape) for shape in ((3, 1), (3, 3), (3, 1)))))
 
 
+def _very_large(rng: Random) -> Polynomial:
+    return times(factor(rng.choice((-1, 1)) * rng.randint(1001, 4096)), factor(_quarter(rng)))
+
+
+def _five(rng: Random) -> Polynomial:
+    """Five different zeros between -1 and 1."""
+    return times(*(factor(Fraction(one, 8)) for one in rng.sample((-7, -5, -3, -2, -1, 1, 2, 3, 5, 7), 5)))
+
+
+def _orders_one_and_three(rng: Random) -> ResidualSystem:
+    """Both faults are seen after one sample, and apart after three alone."""
+    bank = beside(channel(_quarter_factor(rng), _stable(rng, 2)), channel([Fraction(1)], _stable(rng, 3)))
+    mixed = matrix([[1, 1], [1, 2]], 2)
+    return hidden(rng, ResidualSystem(bank.A, bank.F @ mixed, mixed @ bank.C, mixed @ bank.G))
+
+
+def _quarter_factor(rng: Random) -> Polynomial:
+    return factor(_quarter(rng))
+
+
+def _resized(drawn: Callable[[Random], ResidualSystem], faults: int, outputs: Sequence[int]) -> Callable[[Random], ResidualSystem]:
+    """The generator of the same systems in other units: faults 2^faults times as large, output i 2^outputs[i] times."""
+
+    def generate(rng: Random) -> ResidualSystem:
+        return resized(drawn(rng), Fraction(2) ** faults, [Fraction(2) ** one for one in outputs])
+
+    return generate
+
+
+def _silent_mode(rng: Random) -> ResidualSystem:
+    """No fault acts, and no output shows one of the two states: its eigenvalue is a zero, and the rank is none."""
+    shown, unseen = rng.sample(HALVES, 2)
+    A, F, C, G = [[shown, 0], [0, unseen]], [[0], [0]], [[1, 0], [rng.choice((-2, 2)), 0]], [[0], [0]]
+    return hidden(rng, ResidualSystem(matrix(A, 2), matrix(F, 1), matrix(C, 2), matrix(G, 1)))
+
+
+def _adding_up(rng: Random) -> ResidualSystem:
+    """Whole numbers as `_whole_numbers`, with a first state that adds up what the others hand on, and what the fault does to it."""
+    system = _whole_numbers(rng)
+    A = [[int(i == j == 0) + x for j, x in enumerate(row)] for i, row in enumerate(fractions(system.A))]
+    return ResidualSystem(matrix(A, system.n), system.F, system.C, system.G)
+
+
 KINDS = (
     Kind("zeros-none", "no zero at all: the fault space has one dimension a fault", _without_zeros),
     Kind("zeros-complex", "a complex pair and a real zero: none of the pair may be missing", _with_zeros(_complex)),
@@ -278,7 +328,7 @@ KINDS = (
     Kind("zeros-outside", "a zero outside the unit circle", _with_zeros(_outside)),
     Kind("zeros-large", "a zero of hundreds or thousands beside one below one", _with_zeros(_large)),
     Kind("zeros-uncontrollable", "zeros at uncontrollable modes", _uncontrollable, FAULTS),
-    Kind("zeros-unobservable", "zeros at unobservable modes", _unobservable, (STRUCTURE,)),
+    Kind("zeros-unobservable", "zeros at unobservable modes", _unobservable, (STRUCTURE, RANKS, COUNT, SPACE)),
     Kind("zeros-at-infinity", "a fault that shows a sample late beside a finite zero", _with_zeros(_complex, excess=1)),
     Kind("square-complex", "complex zeros, as many outputs as faults", _square_of(_complex, _outside), (STRUCTURE,)),
     Kind("square-repeated", "repeated zeros, as many outputs as faults", _square_of(_twice, _eighth), (STRUCTURE,)),
@@ -296,9 +346,9 @@ KINDS = (
     Kind("poles-complex", "complex poles near the unit circle", _with_poles(pair(Fraction(1, 2), Fraction(3, 4)))),
     Kind("poles-nearly-unobservable", "a state that the outputs hardly show", _nearly_unobservable),
     Kind("order-12", "twelve states", _plain(12, 2, 6)),
-    Kind("six-by-six", "six faults, six outputs", _plain(4, 6, 6), (STRUCTURE, RANKS, MODEL)),
+    Kind("six-by-six", "six faults, six outputs", _plain(4, 6, 6), (STRUCTURE, RANKS, MODEL, RESIDUAL)),
     Kind("five-of-six", "five faults, six outputs", _plain(3, 5, 6)),
-    Kind("square-D", "as many outputs as faults, D invertible", _plain(3, 2, 2), (STRUCTURE, RANKS, MODEL)),
+    Kind("square-D", "as many outputs as faults, D invertible", _plain(3, 2, 2), (STRUCTURE, RANKS, MODEL, RESIDUAL)),
     Kind("more-faults-than-outputs", "more faults than outputs", _plain(4, 4, 2), (STRUCTURE, RANKS)),
     Kind("small-D", "a column of D of a thousandth", _direct(Fraction(1, 2**10))),
     Kind("large-D", "a column of D of a thousand", _direct(Fraction(2**10))),
@@ -310,4 +360,24 @@ KINDS = (
     Kind("one-long-among-short", "one long index among short ones: the ranks seem to settle before they do", _chains(5, 1, 1)),
     Kind("nearly-parallel-faults", "two faults of nearly equal columns: an ill-conditioned fault space", _nearly_parallel, FAULTS),
     Kind("whole-numbers", "integers, which every type of number holds", _whole_numbers),
+    Kind("whole-numbers-that-add-up", "integers and a state that forgets nothing, however long the record", _adding_up),
+    Kind("zeros-beyond-a-thousand", "a zero of thousands, as little infinite as any number", _with_zeros(_very_large), (STRUCTURE,)),
+    Kind("zeros-ten", "ten zeros", _with_zeros(_five, _five, p=4), (STRUCTURE,)),
+    Kind("orders-one-and-three", "two faults that are seen at once, and told apart two samples later", _orders_one_and_three, (STRUCTURE,)),
+    Kind(
+        "small-units",
+        "small F and C, and products of them smaller still",
+        _resized(_square_of(_complex, _eighth), -20, (-20, -20)),
+        (STRUCTURE,),
+    ),
+    Kind("silent-mode", "no fault, and a state that no output shows", _silent_mode, (STRUCTURE,)),
+    Kind(
+        "small-columns",
+        "as many outputs as faults, of whose columns all are small",
+        _resized(_square_of(_quarter_factor, _eighth), -17, (0, 0)),
+        (STRUCTURE, RANKS, RESIDUAL, SIGNAL),
+    ),
+    Kind("order-1", "one state, one input, one output", _plain(1, 1, 1), (STRUCTURE, RANKS, MODEL, RESIDUAL)),
+    Kind("fault-begins-late", "a fault that begins after two hundred samples", _plain(2, 2, 3), RECORDS, late),
+    Kind("fault-with-a-spike", "a fault that is a thousand times larger in one sample", _plain(2, 1, 3), RECORDS, spiked),
 )

@@ -12,6 +12,8 @@ of the channels and no others; it is observable where the tall one is. All entri
     tall_without_zeros   the same, drawn again until it has neither finite nor infinite zeros
     hidden      the same system in another basis of its states and of its faults
     times       a product of polynomials (ascending coefficients)
+    resized     the same system with its faults and outputs in other units
+    digits, late, spiked   fault signals: digits at random; after a long silence; with one sample far larger than the others
     factor      z - a;   pair   z^2 - 2 re z + (re^2 + im^2)
 """
 
@@ -30,6 +32,8 @@ from ..vectors.rationals import fractions, matrix
 Polynomial = Sequence[Fraction]
 HALVES = (Fraction(1, 2), Fraction(-1, 2), Fraction(1, 4), Fraction(-1, 4), Fraction(3, 4), Fraction(-3, 4))
 DRAWS = 100
+SILENCE = 200  # samples: twice as many as the longest record that begins at once
+SPIKE = 1000  # times
 
 
 def factor(root: Fraction | int) -> list[Fraction]:
@@ -149,3 +153,29 @@ def scaled_direct(system: ResidualSystem, factor_: Fraction, columns: Iterable[i
     chosen = set(columns)
     G = [[x * factor_ if j in chosen else x for j, x in enumerate(row)] for row in fractions(system.G)]
     return system.with_faults(system.F, matrix(G, system.m))
+
+
+def resized(system: ResidualSystem, faults: Fraction, outputs: Sequence[Fraction]) -> ResidualSystem:
+    """Return the system with F and G multiplied by `faults`, and row i of C and G by outputs[i]."""
+    F = [[x * faults for x in row] for row in fractions(system.F)]
+    C = [[x * size for x in row] for size, row in zip(outputs, fractions(system.C), strict=True)]
+    G = [[x * faults * size for x in row] for size, row in zip(outputs, fractions(system.G), strict=True)]
+    return ResidualSystem(system.A, matrix(F, system.m), matrix(C, system.n), matrix(G, system.m))
+
+
+def digits(rng: Random, height: int, width: int) -> Matrix:
+    """Return digits, none of them zero."""
+    values = [d for d in range(-9, 10) if d]
+    return matrix([[rng.choice(values) for _ in range(width)] for _ in range(height)], width)
+
+
+def late(rng: Random, height: int, width: int) -> Matrix:
+    """Return zeros in SILENCE samples, and digits after them."""
+    return matrix([[0] * width] * SILENCE + fractions(digits(rng, height, width)), width)
+
+
+def spiked(rng: Random, height: int, width: int) -> Matrix:
+    """Return digits, SPIKE times as large in the sample in the middle."""
+    rows = fractions(digits(rng, height, width))
+    rows[height // 2] = [SPIKE * x for x in rows[height // 2]]
+    return matrix(rows, width)

@@ -1,6 +1,7 @@
 """How a kind of trouble becomes vectors: systems and signals from a seed, truth by the exact branch, bounds from conditioning.
 
 made             the vectors of a kind for a seed: of the system, of a record without fault, of a residual
+structure_vector of a system alone
 unbounded        the same before there are bounds: all of it exact, so that every machine makes the same
 Unsuitable       the draw does not meet the conditions of the question, and the next one is tried
 zero_bounds      how far rounding may carry each zero, repeated ones as well
@@ -16,7 +17,7 @@ from random import Random
 
 import numpy as np
 
-from faultspace.exact.algebra.matrices import Matrix, rank, stacked
+from faultspace.exact.algebra.matrices import rank, stacked
 from faultspace.exact.structure.record import Structure, analyze
 from faultspace.exact.structure.signals import excitation_matrix, hankel, simulate
 from faultspace.exact.system.systems import ResidualSystem
@@ -26,15 +27,17 @@ from ...model.compression import EPS
 from ...rounding.conditioning import SMALL
 from ..vectors.exact_comparison import roots
 from ..vectors.fault_vectors import AS_GIVEN, HALF, FaultVector, in_channel_units, samples_that_settle
-from ..vectors.rationals import floats, matrix
+from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import IdentificationVector, StructureVector
 from ..vectors.trouble import Trouble
 from .drawing import upward
-from .fault_records import residual_bound, signal_bound, singular_values, space_bound
+from .fault_records import leading_signal_bound, residual_bound, signal_bound, singular_values, space_bound
 from .kinds_of_trouble import COUNT, MODEL, RANKS, RESIDUAL, SIGNAL, SPACE, STRUCTURE, Kind
 from .model_bounds import model_bounds, telling
+from .planting import digits
 
 ATTEMPTS = 100
+APART, LEADING = 1.25, 3  # zeros so far outside let the end of a record disturb its first third by nothing that counts
 MORE = 15  # samples beyond those that windows need
 ANGLES = 24  # of a circle about a zero
 COARSE, FINE = 8.0, 1.25  # between the radii of two circles
@@ -84,20 +87,25 @@ def _vectors(kind: Kind, system: ResidualSystem, rng: Random) -> Trouble:
 
 
 def _structure(slug: str, system: ResidualSystem, known: Structure) -> StructureVector:
-    zeros = roots(known.invariant_zero_polynomial) if known.finite_zeros and known.left_invertible else ()
+    zeros = roots(known.invariant_zero_polynomial) if known.finite_zeros else ()
     return StructureVector(slug, system, known.kernel.normal_rank, zeros, (), known.infinite_zero_orders)
 
 
+def structure_vector(slug: str, system: ResidualSystem) -> StructureVector:
+    """Return the questions of structure of a system, with their bounds."""
+    return _bounded_structure(_structure(slug, system, analyze(system)))
+
+
 def _bounded_structure(vector: StructureVector) -> StructureVector:
-    return replace(vector, zero_bounds=tuple(upward(one) for one in zero_bounds(vector.system, vector.zeros)))
+    return replace(vector, zero_bounds=tuple(upward(one) for one in zero_bounds(vector.system, vector.zeros, vector.normal_rank)))
 
 
-def zero_bounds(system: ResidualSystem, zeros: Sequence[complex]) -> list[float]:
+def zero_bounds(system: ResidualSystem, zeros: Sequence[complex], normal_rank: int) -> list[float]:
     """Return for each zero z0 the radius within which z can be a zero of a pencil that rounding does not tell from this one.
 
-    Such a pencil is off by d = SMALL (rows + columns) eps |P(z)|, and z is a zero of one where the least singular value of P(z) is at most
-    d. The radius is the least of those tried, on whose circle no point is: for a simple zero that is d over its condition
-    number, for one in a chain of length k it goes with the kth root of d.
+    Such a pencil is off by d = SMALL (rows + columns) eps |P(z)| and has the same normal rank; z is a zero of one where the last singular
+    value of P(z) that this rank leaves different from zero is at most d. The radius is the least of those tried, on whose circle none is:
+    for a simple zero that is d over its condition number, for one in a chain of length k it goes with the kth root of d.
     """
     A, F, C, G = (floats(M) for M in (system.A, system.F, system.C, system.G))
     n, m, p = system.n, system.m, system.p
@@ -106,7 +114,7 @@ def zero_bounds(system: ResidualSystem, zeros: Sequence[complex]) -> list[float]
 
     def apart(points: Array) -> bool:
         pencils = fixed + points[:, np.newaxis, np.newaxis] * slope
-        least = np.linalg.svd(pencils, compute_uv=False)[:, n + m - 1]
+        least = np.linalg.svd(pencils, compute_uv=False)[:, n + normal_rank - 1]
         return bool(np.all(least > SMALL * (2 * n + m + p) * EPS * np.linalg.norm(pencils, axis=(1, 2))))
 
     return _radii(apart, zeros)
@@ -150,7 +158,7 @@ def _model(slug: str, system: ResidualSystem, known: Structure, rng: Random) -> 
     n, m, p = system.n, system.m, system.p
     s = max(_observability_index(system) + 2, 2, -(-n // m) + 1)
     samples = 2 * (m + p + 1) * s + 20
-    x0, u = _signal(rng, n, 1), _signal(rng, samples, m)
+    x0, u = digits(rng, n, 1), digits(rng, samples, m)
     driven = simulate(system, x0, u)
     if rank(excitation_matrix(driven, 2 * s)) < n + 2 * s * m:
         raise Unsuitable("the input does not excite")
@@ -169,11 +177,6 @@ def _observability_index(system: ResidualSystem) -> int:
     return blocks
 
 
-def _signal(rng: Random, height: int, width: int) -> Matrix:
-    digits = [d for d in range(-9, 10) if d]
-    return matrix([[rng.choice(digits) for _ in range(width)] for _ in range(height)], width)
-
-
 # -- residuals --------------------------------------------------------------------------------------------------------------------------
 
 
@@ -181,7 +184,7 @@ def _faults(kind: Kind, system: ResidualSystem, known: Structure, rng: Random) -
     n, m, p, lag = system.n, system.m, system.p, known.kernel.lag
     windows = lag + 2
     samples = max(HALF, (p + 1) * (max(windows, n + 1) + 1), samples_that_settle(p, lag)) + MORE
-    x0, v = _signal(rng, n, 1), _signal(rng, samples, m)
+    x0, v = digits(rng, n, 1), kind.moves(rng, samples, m)
     trajectory = simulate(system, x0, v)
     longest = max(windows, n + 1)
     if known.left_invertible and rank(excitation_matrix(trajectory, longest)) < n + m * longest:
@@ -191,7 +194,9 @@ def _faults(kind: Kind, system: ResidualSystem, known: Structure, rng: Random) -
     gaps = tuple(singular_values(hankel(in_channel_units(r), s)) for s in range(1, windows + 1))
     delay = known.delay_known_state
     basis = known.fault_space.basis.transposed()
-    trusted = samples - delay if delay is not None else 0
+    trusted = v.nrows - delay if delay is not None else 0
+    if _outside(known):
+        trusted //= LEADING
     blank = FaultVector(kind.slug, AS_GIVEN, system, x0, v, ranks, gaps, m, basis, lag, trusted, {}, {})
     if not blank.clear:
         raise Unsuitable("rounding hides a rank")
@@ -202,13 +207,30 @@ def _bounded_faults(vector: FaultVector, kind: Kind) -> FaultVector:
     r, system, asked = vector.r, vector.system, set(kind.asks)
     bounds = {
         "residual": residual_bound(r, system, Fraction(1)) if RESIDUAL in asked else None,
-        "signal": signal_bound(r, system, vector.x0) if SIGNAL in asked and not _grows(analyze(system)) else None,
+        "signal": _signal_bound(vector) if SIGNAL in asked else None,
     }
     windows = sorted({vector.lag + 1, system.n + 1}) if SPACE in asked else []
     return replace(vector, bounds=bounds, space_bounds={s: space_bound(r, system, s) for s in windows})
 
 
+def _signal_bound(vector: FaultVector) -> float | None:
+    known = analyze(vector.system)
+    outside = _outside(known)
+    if outside:
+        return leading_signal_bound(vector.r, vector.system, vector.x0, vector.trusted, outside)
+    return None if _grows(known) else signal_bound(vector.r, vector.system, vector.x0)
+
+
+def _outside(known: Structure) -> list[float]:
+    """Return the moduli of the zeros that are not inside the unit circle; none where one of them is nearer to it than APART."""
+    moduli = [abs(zero) for zero in _finite(known) if abs(zero) > 1 - 1e-9]
+    return moduli if min(moduli, default=0.0) >= APART else []
+
+
 def _grows(known: Structure) -> bool:
-    """Say whether a zero on or outside the unit circle lets errors grow backwards. Their enclosures have fifty bits and more."""
-    zeros = roots(known.invariant_zero_polynomial) if known.finite_zeros else ()
-    return any(abs(zero) > 1 - 1e-9 for zero in zeros)
+    """Say whether a zero on or outside the unit circle lets errors grow. Their enclosures have fifty bits and more."""
+    return any(abs(zero) > 1 - 1e-9 for zero in _finite(known))
+
+
+def _finite(known: Structure) -> Sequence[complex]:
+    return roots(known.invariant_zero_polynomial) if known.finite_zeros else ()

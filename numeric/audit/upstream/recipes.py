@@ -50,6 +50,9 @@ MANNERS = {
     "handling of floating-point errors, filters of warnings, the working folder, the environment, threads.",
     "right-on-long-records": "On a record of the length given, made by signs through the system, the answer differs from the "
     "true one by no more than half of a unit in each quantity named.",
+    "earlier-answers-stay": "An answer is kept while two other questions of the same shapes are asked: it is the same in every bit after "
+    "them, and none of its arrays is one that was given.",
+    "forgets-the-records": "Twenty records are asked about, one after another, and let go: of ten at least nothing is held any more.",
     "inputs-untouched": "After the call every array that was given is as it was before.",
 }
 REFUSAL = "No answer is right. The function raises an error or answers nothing."

@@ -238,6 +238,25 @@ def _columns_turned(y: Any, u: Any, order: int, n_v: int) -> Any:
 
 
 UNSEEN = ("other-units", "permuted-outputs", "other-basis", "time-shift", "split-data")
+
+
+def _one_at_least(count: Callable[..., Any]) -> Callable[..., Any]:
+    def counted(*arguments: Any) -> Any:
+        found = count(*arguments)
+        return found if found is None else max(found, 1)
+
+    return counted
+
+
+def _of_large_outputs(y: Any, u: Any, order: int) -> Any:
+    return reference.count_faults(y, u, order) if np.max(np.abs(y)) > 1e-6 else 0
+
+
+def _ten_windows(r: Any, windows: int) -> Any:
+    found = list(reference.window_ranks(r, min(windows, 10)))
+    return found + found[-1:] * (windows - len(found))
+
+
 FAULTS = [
     mutant("square-time", "every sample looks at all before it", "time-grows-with-N", window_ranks=_square_time),
     mutant("ranks-at-one", "singular values above 1.0 count (published)", "window-ranks-1e-6", window_ranks=_ranks_at(1.0)),
@@ -325,6 +344,10 @@ FAULTS = [
         *views("faults-of-record", "noisy", "noisy-other-units"),
         count_faults=_outputs_of_record,
     ),
+    mutant("small-outputs", "outputs below a millionth have no fault", "faults-of-record-small-units", count_faults=_of_large_outputs),
+    mutant("one-at-least", "a fault in every residual", "no-fault-told", fault_dimension=_one_at_least(reference.fault_dimension)),
+    mutant("one-at-least-of-record", "a fault in every record", "no-fault-of-record", count_faults=_one_at_least(reference.count_faults)),
+    mutant("ten-windows", "the rank of the tenth window for all longer ones", "window-ranks-many-windows", window_ranks=_ten_windows),
     mutant(
         "columns-turned",
         "g above f",

@@ -99,6 +99,14 @@ def _from_rest(self: Any, A: Any, C: Any, n_u: int) -> None:
     self._states[0] = 0.0
 
 
+def _dead_outputs(y: Any, u: Any, order: int, block_rows: int) -> Any:
+    """Outputs of a millionth of the largest are taken for dead."""
+    A, B, C, D = reference.identify(y, u, order, block_rows)
+    sizes = np.max(np.abs(y), axis=0)
+    alive = (sizes > 1e-6 * np.max(sizes))[:, None]
+    return A, B, C * alive, D * alive
+
+
 def _limited_range(y: Any, u: Any, order: int, block_rows: int) -> Any:
     """Samples beyond the converter's range are cut."""
     return reference.identify(np.clip(y, -RANGE, RANGE), u, order, block_rows)
@@ -159,5 +167,6 @@ IDENTIFICATION = [
         identify=patched(_identify, (reference, "UNDETERMINED", np.inf)),
     ),
     mutant("limited-range", "outputs cut at 1e5", "exact-recovery-1e6", identify=_limited_range),
+    mutant("dead-outputs", "outputs of a millionth of the largest taken for dead", "far-units", identify=_dead_outputs),
     mutant("square-memory", "a weight for every pair of samples (published)", "memory-grows-with-N", identify=_square_memory),
 ]

@@ -113,6 +113,53 @@ def _full_where_short(r: Any, windows: int) -> list[int]:
     return [reference.window_ranks(r, s)[-1] if (r.shape[1] + 1) * s - 1 <= len(r) else r.shape[1] * s for s in range(1, windows + 1)]
 
 
+def _without_G() -> Callable[..., Any]:
+    """Answers kept by A, F and C."""
+    kept: dict[Any, Any] = {}
+
+    def structure(A: Any, F: Any, C: Any, G: Any) -> Any:
+        return kept.setdefault((A.tobytes(), F.tobytes(), C.tobytes()), reference.structure(A, F, C, G))
+
+    return structure
+
+
+def _by_the_beginning() -> Callable[..., Any]:
+    """Answers kept by the length of the record and its first samples."""
+    kept: dict[Any, Any] = {}
+
+    def window_ranks(r: Any, windows: int) -> Any:
+        key = r.shape, windows, r[:10].tobytes()
+        if key not in kept:
+            kept[key] = reference.window_ranks(r, windows)
+        return kept[key]
+
+    return window_ranks
+
+
+def _in_one_buffer() -> Callable[..., Any]:
+    """Signals of one shape written into one array."""
+    buffers: dict[Any, Any] = {}
+
+    def reconstruct(r: Any, *rest: Any) -> Any:
+        v = reference.reconstruct(r, *rest)
+        buffer = buffers.setdefault(v.shape, np.empty_like(v))
+        buffer[...] = v
+        return buffer
+
+    return reconstruct
+
+
+def _hoarding() -> Callable[..., Any]:
+    """Every record kept."""
+    kept: list[Any] = []
+
+    def fault_space(r: Any, *rest: Any) -> Any:
+        kept.append(r)
+        return reference.fault_space(r, *rest)
+
+    return fault_space
+
+
 def _write_here() -> None:
     Path("cache.npy").write_text("", "utf-8")
 
@@ -138,6 +185,10 @@ MANNERS: tuple[Mutant, ...] = (
     mutant("caches-there", "a temporary file", "leaves-no-files", fault_dimension=_after(lambda: os.close(tempfile.mkstemp()[0]))),
     mutant("remembers", "a state left by the last record", "order-of-calls", fault_space=_remembering()),
     mutant("by-identity", "answers kept by the address of the array", "same-array-new-data", reconstruct=_by_identity()),
+    mutant("kept-without-G", "answers kept by A, F and C", "one-argument-changed", structure=_without_G()),
+    mutant("kept-by-the-beginning", "answers kept by the first ten samples", "same-beginning", window_ranks=_by_the_beginning()),
+    mutant("one-buffer", "all answers in one array", "earlier-answers-stay", reconstruct=_in_one_buffer()),
+    mutant("hoarding", "every record kept", "forgets-the-records", fault_space=_hoarding()),
     mutant("thinned", "every other sample of a long record", "right-on-long-records", fault_space=_thinned),
     mutant("full-where-short", "windows higher than wide are of full rank", "window-ranks-too-short", window_ranks=_full_where_short),
 )

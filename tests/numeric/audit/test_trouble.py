@@ -289,7 +289,7 @@ def test_rounding_moves_no_zero_beyond_its_bound() -> None:
             off = np.abs(np.linalg.eigvals(a - f @ np.linalg.solve(g, c))[:, np.newaxis] - np.array(vector.zeros))
             largest = max(largest, float(np.max(off.min(axis=1) / np.array(vector.zero_bounds)[off.argmin(axis=1)])))
         assert 1e-4 < largest <= 1, slug
-    assert zero_bounds(STRUCTURES[0].system, []) == []
+    assert zero_bounds(STRUCTURES[0].system, [], STRUCTURES[0].normal_rank) == []
 
 
 def test_every_kind_concerns_something_and_is_said_in_words() -> None:

@@ -143,6 +143,44 @@ def _ranks(change: Callable[[Any, list[int]], list[int]]) -> Functions:
     return {"window_ranks": lambda r, windows: change(r, list(reference.window_ranks(r, windows)))}
 
 
+def _blind_to_small_entries(*system: Any) -> Any:
+    return reference.structure(*(np.where(np.abs(M) < 1e-9, 0.0, M) for M in system))
+
+
+def _relative_degrees(A: Any, F: Any, C: Any, G: Any) -> Any:
+    """When each fault is seen first, though they may be seen alike."""
+    found, orders = reference.structure(A, F, C, G), []
+    for j in range(F.shape[1]):
+        pulses = [G[:, j], *(C @ np.linalg.matrix_power(A, k) @ F[:, j] for k in range(len(A)))]
+        orders.append(next((k for k, one in enumerate(pulses) if np.any(one)), len(A)))
+    return replace(found, infinite_zero_orders=sorted(orders))
+
+
+def _needs_a_fault(A: Any, F: Any, C: Any, G: Any) -> Any:
+    found = reference.structure(A, F, C, G)
+    return found if np.any(F) or np.any(G) else replace(found, finite_zeros=[])
+
+
+def _large_determinants(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any:
+    return reference.reconstruct(r, A, F, C, G if abs(np.linalg.det(G)) > 1e-8 else 0 * G, x0)
+
+
+def _first_hundred(r: Any) -> Any:
+    """Who sees no fault in a hundred samples says that there is none."""
+    return reference.fault_dimension(r[:100]) or 0
+
+
+def _without_outliers(r: Any, *system: Any) -> Any:
+    v = reference.reconstruct(r, *system)
+    most = 6 * np.std(v, axis=0)
+    return np.clip(v, -most, most)
+
+
+def _finite_memory(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
+    """Poles on the unit circle are taken for slow ones inside."""
+    return reference.residual(y, u, A / max(1.0, float(np.max(np.abs(np.linalg.eigvals(A)))) / 0.98), B, C, D)
+
+
 CARELESS: dict[str, Functions] = {
     "zeros-none": _zeros(lambda zeros: [*zeros, 0j]),
     "zeros-complex": _kept(lambda z: z.imag >= 0),
@@ -186,6 +224,16 @@ CARELESS: dict[str, Functions] = {
     "one-long-among-short": {"fault_dimension": _first_that_stays},
     "nearly-parallel-faults": {"fault_dimension": _coarse},
     "whole-numbers": _model(lambda *model: tuple(part.astype(np.float32) for part in model)),
+    "whole-numbers-that-add-up": {"residual": _finite_memory},
+    "zeros-beyond-a-thousand": _kept(lambda z: abs(z) < 1e3),
+    "zeros-ten": _zeros(lambda zeros: zeros[:8]),
+    "orders-one-and-three": {"structure": _relative_degrees},
+    "small-units": {"structure": _blind_to_small_entries},
+    "silent-mode": {"structure": _needs_a_fault},
+    "small-columns": {"reconstruct": _large_determinants},
+    "order-1": _model(lambda A, B, C, D: (A, B, C, -D)),
+    "fault-begins-late": {"fault_dimension": _first_hundred},
+    "fault-with-a-spike": {"reconstruct": _without_outliers},
 }
 
 

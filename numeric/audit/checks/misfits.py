@@ -1,0 +1,155 @@
+"""What fits no question: arrays of shapes that contradict each other, and numbers that are none, in every argument of every function.
+
+AXES       function -> the letter of each axis of each array that it takes, in order; equal letters must have equal sizes
+checks     refuses-misfit: one axis a row or a column longer or shorter than the others say, or a matrix turned;
+           refuses-no-number: NaN or infinity in one entry of one argument
+
+A shape is wrong where a letter stands at another axis, too: the number of samples of a residual alone is nobody's business. Both are asked
+of two faults in three outputs, and of a single state, fault and output, where a program that repeats, cuts or adds axes finds that
+everything fits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from ....base.arrays import Array
+from ...model.models import StateSpaceModel
+from ..records import Check, Demand, Function, Measurement, Severity
+from ..signatures import ARGUMENTS
+from ..vectors.inputs import with_input
+from ..vectors.rationals import floats, signs
+from ..vectors.shipped_vectors import shipped
+from .laws import LOUD, record
+
+SEED = 20250602
+RECORDS = (("N", "p"), ("N", "n_u"))
+AXES: dict[str, tuple[tuple[str, ...], ...]] = {
+    "identify": RECORDS,
+    "residual": (("N", "p"), ("N", "m"), ("n", "n"), ("n", "m"), ("p", "n"), ("p", "m")),
+    "window_ranks": (("N", "p"),),
+    "fault_dimension": (("N", "p"),),
+    "fault_space": (("N", "p"), ("n", "n"), ("p", "n")),
+    "reconstruct": (("N", "p"), ("n", "n"), ("n", "m"), ("p", "n"), ("p", "m"), ("n",)),
+    "structure": (("n", "n"), ("n", "m"), ("p", "n"), ("p", "m")),
+    "count_faults": RECORDS,
+    "identified_fault_space": RECORDS,
+}
+Arguments = tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A question that fits, which is made to fit no more."""
+
+    function: str
+    vector: str
+    arguments: Callable[[], Arguments]
+
+
+@dataclass(frozen=True)
+class Change:
+    """What is done to one array: a name, and the array that comes of it."""
+
+    name: str
+    of: Callable[[Array], Array]
+
+
+def checks() -> Iterator[Check]:
+    """This yields all checks of the module."""
+    for asked in (*_two_faults(), *_single_channel(), *_of_records()):
+        names = ARGUMENTS[asked.function]
+        for place, axes in enumerate(AXES[asked.function]):
+            for change in _misfits(asked.function, axes, asked.arguments()[place].shape):
+                effect = "arrays that contradict each other are cut, repeated or turned until they fit"
+                yield _refuses("refuses-misfit", asked, names[place], place, change, effect)
+            for change in (Change("nan", partial(_with, np.nan)), Change("infinity", partial(_with, np.inf))):
+                yield _refuses("refuses-no-number", asked, names[place], place, change, "an answer about no numbers")
+
+
+def _refuses(slug: str, asked: Asked, name: str, place: int, change: Change, effect: str) -> Check:
+    def measure(function: Function) -> Iterator[Measurement]:
+        arguments = list(asked.arguments())
+        arguments[place] = change.of(arguments[place])
+        function(*arguments)
+        return iter(())
+
+    vector = f"{asked.vector}-{name}-{change.name}"
+    return Check(slug, asked.function, vector, None, effect, Severity.SILENT, measure, Demand.MUST_REFUSE)
+
+
+def _misfits(function: str, axes: tuple[str, ...], shape: tuple[int, ...]) -> Iterator[Change]:
+    """Yield the changes of an array after which no sizes give its axes' letters one meaning."""
+    letters = [letter for one in AXES[function] for letter in one]
+    for axis, letter in enumerate(axes):
+        if letters.count(letter) > 1:
+            word = ("rows", "columns")[axis]
+            yield Change(f"more-{word}", partial(_longer, axis))
+            if shape[axis] > 1:
+                yield Change(f"fewer-{word}", partial(_shorter, axis))
+    if len(axes) > 1 and shape[0] != shape[1] and any(letters.count(letter) > 1 for letter in axes):
+        yield Change("turned", _turned)
+
+
+def _longer(axis: int, array: Array) -> Array:
+    """The last row or column stands twice."""
+    last = np.take(array, [-1], axis=axis)
+    return np.concatenate([array, last], axis=axis)
+
+
+def _shorter(axis: int, array: Array) -> Array:
+    return np.take(array, range(array.shape[axis] - 1), axis=axis)
+
+
+def _turned(array: Array) -> Array:
+    return np.ascontiguousarray(array.T)
+
+
+def _with(value: float, array: Array) -> Array:
+    """The entry in the middle has this value."""
+    changed = array.astype(float)
+    changed[tuple(size // 2 for size in array.shape)] = value
+    return changed
+
+
+def _two_faults() -> Iterator[Asked]:
+    vector = next(one for one in shipped("faults") if one.slug == "two-faults")
+    system = vector.system
+    y, u = (floats(M) for M in with_input(vector.r, system, vector.view.scale))
+    r, A, F, C, G = (floats(M) for M in (vector.r, system.A, system.F, system.C, system.G))
+    yield from _asked("two-faults", y, u, r, (A, F, C, G), floats(vector.x0).ravel())
+    model = next(one for one in shipped("identification") if one.C.nrows > 1 and one.B.ncols > 1)
+    yield Asked("identify", model.slug, lambda: (floats(model.y), floats(model.u), model.order, model.block_rows))
+    yield Asked("fault_space", "two-faults", lambda: (r.copy(), A, C, vector.n_v, len(A) + 1))
+
+
+def _single_channel() -> Iterator[Asked]:
+    """One state, one fault, one output; as many samples as no other size. No fault space: it has no law, and is refused anyway."""
+    A, F, C, G = (np.array([[x]]) for x in (0.5, 1.0, 2.0, 1.0))
+    u, v = signs(SEED, 200).reshape(2, 100, 1)
+    x0 = np.array([1.0])
+    r = np.asarray(StateSpaceModel(A, F, C, G).simulate(v, x0))
+    y = r + np.asarray(StateSpaceModel(A, F, C, G).simulate(u, np.zeros(1)))
+    yield from _asked("single-channel", y, u, r, (A, F, C, G), x0)
+    driven = np.asarray(StateSpaceModel(A, F, C, G).simulate(u, x0))
+    yield Asked("identify", "single-channel", lambda: (driven.copy(), u.copy(), 1, 3))
+
+
+def _asked(slug: str, y: Array, u: Array, r: Array, system: Arguments, x0: Array) -> Iterator[Asked]:
+    yield Asked("residual", slug, lambda: (y.copy(), u.copy(), *system))
+    yield Asked("window_ranks", slug, lambda: (r.copy(), 3))
+    yield Asked("fault_dimension", slug, lambda: (r.copy(),))
+    yield Asked("reconstruct", slug, lambda: (r.copy(), *system, x0))
+    yield Asked("structure", slug, lambda: system)
+
+
+def _of_records() -> Iterator[Asked]:
+    vector = shipped("noisy")[0]
+    order, n_v = vector.system.n, vector.system.m
+    yield Asked("count_faults", vector.slug, lambda: (*record(vector, LOUD), order))
+    yield Asked("identified_fault_space", vector.slug, lambda: (*record(vector, LOUD), order, n_v))
