@@ -25,7 +25,7 @@ from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import read_system
 from ..trust import checker, checker_structure
 from ..trust.kernel_witnesses import kernel_witness
-from .export_fields import FIELD_KINDS, finite_zeros
+from .export_fields import FIELD_KINDS, finite_zeros, infinite_zeros
 from .listed import Integers, Listed, NotCovered, added, independent, times, unit
 from .terms import Terms, index, indices, window_of
 from .text import call, natural, naturals, pivoted, sequence, table, vector, whole
@@ -36,7 +36,7 @@ MAX_TEXT = 2**20
 MODULES = (
     "Vocabulary", "CertificatesVocabulary", "Lists", "ListedSystems", "CheckRows", "CheckRanks", "CheckBehaviors", "Solutions",
     "CheckSolutions", "CheckInversion", "Stacks", "Excitation", "TableRank", "CheckMatrices", "NumbersVocabulary", "FieldArithmetic",
-    "FieldBehaviors", "FieldSolutions", "FieldInversion", "FieldMatrices", "FieldZeros",
+    "FieldBehaviors", "FieldSolutions", "FieldInversion", "FieldMatrices", "FieldZeros", "FieldInfiniteZeros",
 )  # fmt: skip
 HEAD = f"""From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
@@ -328,6 +328,7 @@ COVERED: dict[str, Callable[[Json, Json], Terms]] = {
     "first-column-only": _first_column_only,
     "matrix-rank": _matrix_rank,
     "finite-zeros": finite_zeros,
+    "infinite-zeros": infinite_zeros,
 }
 
 

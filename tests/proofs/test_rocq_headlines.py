@@ -192,6 +192,7 @@ CHANGES: dict[str, tuple[str, str]] = {
     "field_hankel": ("(hankel N s", "(hankel N.+1 s"),
     "field_excitation": (" N s) = r", " N.+1 s) = r"),
     "field_finite_zeros": ("\\rank (transfer S) = r", "\\rank (transfer S) = r.+1"),
+    "field_infinite_zeros": ("(take j orders)", "(take j.+1 orders)"),
 }
 
 
