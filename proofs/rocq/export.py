@@ -10,8 +10,8 @@ integer of Python, and what writes integers (`text.py`) takes nothing else. The 
 
 Here are the kinds over Q; those over GF(p) and Q(a) are in export_fields.py. Systems are written with transposed matrices (signals
 are rows in the theory), as integers over one common denominator. Two things in the terms are not in the certificate: words whose outputs
-are independent modulo its prime, which show the lower bounds that `checker.py` finds by elimination, or the hints of which Rocq knows, two
-coprime determinants and a minor; and combinations of demands likewise. `listed.py` computes them. Where window ranks have "nulling", of
+are independent modulo its prime, which show the lower bounds that `checker.py` finds by elimination, or three minors, where it does so at
+a point; and combinations of demands likewise. `listed.py` computes them. Where window ranks have "nulling", of
 which Rocq knows nothing, exact rows are found and stand in the place of the witness.
 """
 
@@ -25,7 +25,7 @@ from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import read_system
 from ..trust import checker, checker_structure
 from ..trust.kernel_witnesses import kernel_witness
-from .export_fields import FIELD_KINDS, finite_zeros
+from .export_fields import FIELD_KINDS, finite_zeros, infinite_zeros
 from .listed import Integers, Listed, NotCovered, added, independent, times, unit
 from .terms import Terms, index, indices, window_of
 from .text import call, natural, naturals, pivoted, sequence, table, vector, whole
@@ -36,7 +36,7 @@ MAX_TEXT = 2**20
 MODULES = (
     "Vocabulary", "CertificatesVocabulary", "Lists", "ListedSystems", "CheckRows", "CheckRanks", "CheckBehaviors", "Solutions",
     "CheckSolutions", "CheckInversion", "Stacks", "Excitation", "TableRank", "CheckMatrices", "NumbersVocabulary", "FieldArithmetic",
-    "FieldBehaviors", "FieldSolutions", "FieldInversion", "FieldMatrices", "FieldZeros",
+    "FieldBehaviors", "FieldSolutions", "FieldInversion", "FieldMatrices", "FieldZeros", "FieldInfiniteZeros",
 )  # fmt: skip
 HEAD = f"""From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
@@ -95,7 +95,7 @@ def _window_ranks(s: Json, w: Json) -> Terms:
     r, etas, ranks = index(s["normal_rank"]), naturals(indices(s["left_minimal_indices"])), naturals(indices(s.get("window_ranks", [])))
     name = system.named("system")
     formula = f"(forall s, \\rank (window {name} s) = s * {natural(r)} + \\sum_(eta <- {etas}) minn s eta)%N"
-    lower = _lower("lower", system, kernel, w, prime) if exact else ("lower", "hints", _hints(system, kernel, w, prime))
+    lower = _lower("lower", system, kernel, w, prime) if exact else ("lower", "hints", system.hints(kernel, w["point"], prime))
     suffix = "" if exact else "_modulo"
     return Terms(
         (_named("system", system), _modulus(prime), _rows(kernel), lower),
@@ -109,12 +109,12 @@ def _left_invertible(s: Json, w: Json) -> Terms:
     system, prime = Listed(s["system"]), _prime(w)
     statement = f"left_invertible {system.named('system')}"
     if "point" in w:
-        point = system.point(w["point"], system.p - system.m, prime)
-        rows, columns, value = system.minor(point, prime)
-        minor = f"{whole(point)} {naturals(rows)} {naturals(columns)} {whole(value)}"
-        definitions = _named("system", system), _modulus(prime)
+        point, minor = system.pencil_minor(w["point"], prime)
         return Terms(
-            definitions, call("check_left_invertible_at", *system.sizes, f"l system {minor}"), statement, "left_invertible_at_sound"
+            (_named("system", system), _modulus(prime), ("q", "option Z", point)),
+            call("check_left_invertible_at", *system.sizes, f"l system q {minor}"),
+            statement,
+            "left_invertible_at_sound",
         )
     return Terms(
         (_named("system", system), _modulus(prime), _words("ws", system, system.n + 1, prime)),
@@ -328,6 +328,7 @@ COVERED: dict[str, Callable[[Json, Json], Terms]] = {
     "first-column-only": _first_column_only,
     "matrix-rank": _matrix_rank,
     "finite-zeros": finite_zeros,
+    "infinite-zeros": infinite_zeros,
 }
 
 
@@ -353,14 +354,10 @@ def _rows(kernel: Kernel) -> tuple[str, str, str]:
     return "rows", "seq kernel_row", sequence(f"({natural(pivot)}%N, {table(row)})" for pivot, row in kernel)
 
 
-def _hints(system: Listed, kernel: Kernel, w: Json, prime: int) -> str:
-    return system.hints(kernel, w["point"], prime)
-
-
 def _lower(name: str, system: Listed, kernel: Kernel, w: Json, prime: int, window: int | None = None) -> tuple[str, str, str]:
     """Returns what shows a lower bound: the hints of the witness, or words, of one more sample than there are states or of a window."""
     if "point" in w:
-        return name, "evidence", f"inr ({_hints(system, kernel, w, prime)})"
+        return name, "evidence", f"inr ({system.hints(kernel, w['point'], prime)})"
     return name, "evidence", f"inl {system.words(system.n + 1 if window is None else window, prime)}"
 
 

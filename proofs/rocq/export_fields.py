@@ -2,6 +2,7 @@
 
     FIELD_KINDS     kind -> what writes it
     finite_zeros    writes finite zeros, over Q too
+    infinite_zeros  writes infinite zeros, over Q too
 
 The theorem about a system over GF(p) is said of every field in which p is zero, that about one over Q(a) of every root of the minimal
 polynomial in every field of characteristic 0: neither needs that p is a prime or that the polynomial is irreducible, which the checker
@@ -230,12 +231,8 @@ def finite_zeros(s: Json, w: Json) -> Terms:
     system, r = _system(s["system"], w), index(s["normal_rank"])
     numbers, name, sizes = system.numbers, system.named("system"), (system.n + system.p, system.n + system.m)
     g = _polynomial(numbers, s["invariant_zero_polynomial"])
-    diagonal = [_polynomial(numbers, f) for f in checker.items(w["diagonal"], "diagonal", min(sizes), min(sizes))]
-    multipliers = {"V": "left", "V'": "left_inverse", "U": "right", "U'": "right_inverse"}
-    tables = [
-        (part, "seq (seq (seq V))", sequence(map(numbers.table, zip(*_polynomials(numbers, w[key], height), strict=True))))
-        for (part, key), height in zip(multipliers.items(), (sizes[0], sizes[0], sizes[1], sizes[1]), strict=True)
-    ]
+    diagonal = _diagonal(numbers, w, sizes)
+    tables = [_polynomial_table(numbers, part, rows) for part, rows in _multipliers(numbers, w, sizes).items()]
     product = numbers.unit(1, 0)
     for f in diagonal:
         product = _convolved(numbers, product, f) if any(x != 0 for x in f) else product
@@ -253,6 +250,35 @@ def finite_zeros(s: Json, w: Json) -> Terms:
     )  # fmt: skip
 
 
+def infinite_zeros(s: Json, w: Json) -> Terms:
+    """Writes infinite-zeros, over Q too.
+
+    The certificate has multipliers of the reversed pencil, [1 - t A, t C; - t F, t G] in the theory, which is the pencil at infinity,
+    [1 - t A, C; - t F, G], with its last p columns times t. The form D of the one has n entries that do not vanish at t = 0, and V maps
+    between the columns without t; so the other has the form D with all other entries over t, by the same U, and V with the rows of
+    outputs times t and all other columns over t, for which V need only be divisible as it has to be.
+    """
+    system, orders = _system(s["system"], w), indices(s["infinite_zero_orders"])
+    numbers, name, sizes = system.numbers, system.named("system"), (system.n + system.p, system.n + system.m)
+    diagonal, multipliers = _diagonal(numbers, w, sizes), _multipliers(numbers, w, sizes)
+    later = [not (j < len(diagonal) and diagonal[j] and diagonal[j][0] != 0) for j in range(sizes[0])]
+    outputs = [j >= system.n for j in range(sizes[0])]
+    multipliers |= {"V": _shifted(numbers, multipliers["V"], outputs, later), "V'": _shifted(numbers, multipliers["V'"], later, outputs)}
+    reduced = [f[1:] if late else f for f, late in zip(diagonal, later, strict=False)]
+    r, written = natural(len(orders)), naturals(orders)
+    minors = f"divides_minors_of_order ({natural(system.n)} + j) (pencil_at_infinity {name}) 'X^e"
+    return _terms(
+        numbers,
+        [
+            _named("system", system), _table(system, "d", reduced),
+            *(_polynomial_table(numbers, part, rows) for part, rows in multipliers.items()),
+        ],
+        call("has_infinite_zeros", *system.sizes, written, "system d U U' V V'"),
+        f"\\rank (transfer {name}) = {r}%N /\\ forall j e, (j <= {r})%N -> {minors} <-> (e <= sumn (take j {written}))%N",
+        "has_infinite_zeros_sound",
+    )  # fmt: skip
+
+
 FIELD_KINDS: dict[str, Callable[[Json, Json], Terms]] = {
     "window-ranks": _window_ranks,
     "left-invertible": _left_invertible,
@@ -266,6 +292,7 @@ FIELD_KINDS: dict[str, Callable[[Json, Json], Terms]] = {
     "first-column-only": _first_column_only,
     "matrix-rank": _matrix_rank,
     "finite-zeros": finite_zeros,
+    "infinite-zeros": infinite_zeros,
 }
 
 
@@ -345,6 +372,32 @@ def _polynomials(numbers: Numbers, value: Json, size: int) -> list[Rows]:
     """Returns a square POLYMATRIX of that size."""
     rows = checker.items(value, "a matrix of polynomials", size, size)
     return [[_polynomial(numbers, f) for f in checker.items(row, "a row of polynomials", size, size)] for row in rows]
+
+
+def _diagonal(numbers: Numbers, w: Json, sizes: tuple[int, int]) -> Rows:
+    """Returns the diagonal of the form of a pencil of that shape."""
+    return [_polynomial(numbers, f) for f in checker.items(w["diagonal"], "diagonal", min(sizes), min(sizes))]
+
+
+def _multipliers(numbers: Numbers, w: Json, sizes: tuple[int, int]) -> dict[str, list[Rows]]:
+    """Returns the transposed multipliers of a pencil of that shape, by their names in the theory."""
+    keys = {"V": ("left", sizes[0]), "V'": ("left_inverse", sizes[0]), "U": ("right", sizes[1]), "U'": ("right_inverse", sizes[1])}
+    return {part: [list(row) for row in zip(*_polynomials(numbers, w[key], size), strict=True)] for part, (key, size) in keys.items()}
+
+
+def _polynomial_table(numbers: Numbers, name: str, rows: Sequence[Rows]) -> tuple[str, str, str]:
+    return name, "seq (seq (seq V))", sequence(map(numbers.table, rows))
+
+
+def _shifted(numbers: Numbers, table: Sequence[Rows], up: Sequence[bool], down: Sequence[bool]) -> list[Rows]:
+    """Returns polynomials, times t in the rows told and over t in the columns told. Rejected where a division leaves a rest."""
+    found = []
+    for row, raised in zip(table, up, strict=True):
+        line = [[*numbers.unit(1, -1), *f] if raised else f for f in row]
+        rests = (f[0] for f, lowered in zip(line, down, strict=True) if lowered and f)
+        checker.require(not any(x != 0 for x in rests), "the left multiplier does not map columns without t to such columns")
+        found.append([f[1:] if lowered else f for f, lowered in zip(line, down, strict=True)])
+    return found
 
 
 def _convolved(numbers: Numbers, f: Row, g: Row) -> Row:

@@ -13,18 +13,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import cached_property
-from operator import mul
-from random import Random
 from typing import Any
 
-from flint import nmod_mat, nmod_poly
+from flint import nmod_mat
 
 from ..trust import checker
 from .text import natural, naturals, sequence, table, vector, whole
 
 Json = Any
 Integers = list[list[int]]
-DRAWS = 8  # of points, and of mixes: most serve
 
 
 class NotCovered(Exception):
@@ -101,76 +98,47 @@ class Listed:
             state, weight = _reduced(state, prime), weight * self.den
         return found[::-1]
 
-    def minor(self, point: int, prime: int) -> tuple[list[int], list[int], int]:
-        """Returns rows, columns and value modulo the prime of a largest minor of the pencil that is not zero, at a point, times the
-        denominator; as the theory has the pencil, [q - A, C; - F, G].
+    def minor(self, point: int | None, prime: int) -> tuple[list[int], list[int], int]:
+        """Returns rows, columns and value modulo the prime of a largest minor that is not zero, of the pencil at a point, times the
+        denominator, as the theory has the pencil, [q - A, C; - F, G]; or of G, where the point is infinity, None.
         """
         n, m, p = self.sizes
-        checker.charge((n + m) * (n + p) * (100 + 4 * min(n + m, n + p)), 100 * (n + m) * (n + p))
-        above = [[self.den * point * (i == j) - x for j, x in enumerate(row)] + self.C[i] for i, row in enumerate(self.A)]
-        table = [[x % prime for x in row] for row in above + [[-x for x in f] + g for f, g in zip(self.F, self.G, strict=True)]]
-        columns = _pivots(table, n + p, prime)
-        rows = _pivots([[row[j] for row in table] for j in columns], n + m, prime)
-        value = int(nmod_mat(len(rows), len(rows), [table[i][j] for i in rows for j in columns], prime).det()) if rows else 1
-        return rows, columns, value
+        height, width = (m, p) if point is None else (n + m, n + p)
+        checker.charge(height * width * (100 + 4 * min(height, width)), 100 * height * width)
+        if point is None:
+            table = [[x % prime for x in row] for row in self.G]
+        else:
+            above = [[self.den * point * (i == j) - x for j, x in enumerate(row)] + self.C[i] for i, row in enumerate(self.A)]
+            table = [[x % prime for x in row] for row in above + [[-x for x in f] + g for f, g in zip(self.F, self.G, strict=True)]]
+        columns = _pivots(table, width, prime)
+        rows = _pivots([[row[j] for row in table] for j in columns], height, prime)
+        return rows, columns, determinant([[table[i][j] for j in columns] for i in rows], prime)
 
-    def point(self, given: Json, missing: int, prime: int) -> int:
-        """Returns the point of a witness, or, where that is infinity, one of no smaller rank. Rejected where only that rank, and not the
-        one at infinity, n + rank G, is n + p less what is missing.
-        """
-        if given != "infinity":
-            return checker.index(given, "point", prime - 1)
-        rank = len(checker.echelon([[x % prime for x in row] for row in self.G], prime))
-        rng = Random(self.n)
-        ranks = {q: len(self.minor(q, prime)[0]) for q in (rng.randrange(prime) for _ in range(DRAWS))}
-        point = max(ranks, key=ranks.__getitem__)
-        checker.require(rank >= self.p - missing or ranks[point] < self.n + self.p - missing, "the rank of G modulo the prime is smaller")
-        return point
+    def pencil_minor(self, given: Json, prime: int) -> tuple[str, str]:
+        """Returns the point of a witness, or none for infinity, and that minor there, as terms in the scope of integers."""
+        point = None if given == "infinity" else checker.index(given, "point", prime - 1)
+        rows, columns, value = self.minor(point, prime)
+        return "None" if point is None else f"(Some {whole(point)})", f"{naturals(rows)} {naturals(columns)} {whole(value)}"
 
     def hints(self, rows: Sequence[tuple[int, Integers]], given: Json, prime: int) -> str:
-        """Returns hints that prove kernel rows minimal where they are, as a term: a minor of the pencil at a point, the determinants of the
-        rows at their pivots and mixed, and cofactors of these. Raises NotCovered where the prime is too small for most mixes to serve.
+        """Returns hints that prove kernel rows minimal where they are, as a term: a minor of the pencil at a point, that of the leading
+        coefficients at the pivots, and as many columns as the rows have states, with their minor there, 0 where there are too few.
         """
-        degree, k, width = sum(len(row) - 1 for _, row in rows), len(rows), self.n + self.p
-        if 2 * width * k**2 * degree >= prime:  # of the mixes, width k^2 at most fail at each zero of the first determinant
-            raise NotCovered("the prime is small, and the checks in Rocq ask for a mix, of which most serve modulo a large one")
-        point = self.point(given, k, prime)
-        checker.charge(sum(len(row) for _, row in rows) * width * (300 + 100 * (self.n + k)))
-        demands = [self.demands(row, prime) for _, row in rows]
-        at_pivots = [[[y[self.n + pivot] for y in one] for pivot, _ in rows] for one in demands]
-        first, rng = determinant_polynomial(at_pivots, degree, prime), Random(k)
-        for _ in range(DRAWS):
-            mix = rng.randrange(1, prime)
-            weights = [[pow(mix, (i + 1) * (b + 1), prime) for i in range(width)] for b in range(k)]
-            mixed = [[[sum(map(mul, w, y)) % prime for y in one] for w in weights] for one in demands]
-            second = determinant_polynomial(mixed, degree, prime)
-            common, u, v = nmod_poly(first, prime).xgcd(nmod_poly(second, prime))
-            if common.degree() == 0:
-                break
-        minor_rows, columns, value = self.minor(point, prime)
-        polynomials = [vector(first), vector(second), *(vector(int(x) for x in f.coeffs()) for f in (u, v))]
-        return f"Hints {whole(point)} {naturals(minor_rows)} {naturals(columns)} {whole(value)} {whole(mix)} {' '.join(polynomials)}"
+        width, terms = self.n + self.p, sum(len(row) for _, row in rows)
+        point, minor = self.pencil_minor(given, prime)
+        checker.charge(terms * (width * (300 + 100 * (self.n + len(rows))) + self.n * (100 + 4 * min(self.n, terms))), 100 * terms * width)
+        states = [demand[: self.n] for _, row in rows for demand in self.demands(row, prime)[:-1]]
+        columns = _pivots(states, self.n, prime)
+        of_states = determinant([[x[j] for j in columns] for x in states], prime) if len(columns) == len(states) else 0
+        leading = determinant([[row[-1][pivot] % prime for pivot, _ in rows] for _, row in rows], prime)
+        return f"Hints {point} {minor} {whole(leading)} {naturals(columns)} {whole(of_states)}"
 
 
-def determinant_polynomial(table: Sequence[Sequence[Sequence[int]]], degree: int, prime: int) -> list[int]:
-    """Returns det of a square matrix of polynomials modulo a prime above its degree, which is `degree` at most: degree + 1 coefficients.
-
-    A polynomial of that degree is the one that has its values at 0, ..., degree, by divided differences.
-    """
-    size, longest = len(table), max((len(f) for row in table for f in row), default=0)
-    if not size:
-        return [1, *[0] * degree]
-    checker.charge((degree + 1) * (2000 + size**2 * (500 + 40 * longest + 40 * size) + 250 * degree), 200 * size**2 * (degree + longest))
-    entries, values = [nmod_poly(list(f), prime) for row in table for f in row], list[int]()
-    for q in range(degree + 1):
-        values.append(int(nmod_mat(size, size, [int(f(q)) for f in entries], prime).det()))
-    for k in range(1, degree + 1):
-        inverse = pow(k, -1, prime)
-        values[k:] = [(y - x) * inverse % prime for x, y in zip(values[k - 1 :], values[k:], strict=False)]
-    found = values[degree:]
-    for k in reversed(range(degree)):  # times (q - k), plus the k-th difference
-        found = [(x - k * y) % prime for x, y in zip([values[k], *found], [*found, 0], strict=True)]
-    return found
+def determinant(table: Integers, prime: int) -> int:
+    """Returns the determinant of a square table of residues modulo the prime."""
+    size = len(table)
+    checker.charge(size**2 * (100 + 4 * size), 100 * size**2)
+    return int(nmod_mat(size, size, [x for row in table for x in row], prime).det()) if size else 1
 
 
 def independent(rows: Integers, width: int, prime: int) -> list[tuple[int, list[int]]]:

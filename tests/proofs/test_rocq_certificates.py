@@ -159,7 +159,7 @@ def words_of(text: str) -> set[str]:
 def test_no_string_of_a_certificate_reaches_rocq() -> None:
     sound = [text_of(certificate, exported) for certificate in small_ones()]
     words = set[str]().union(*(words_of(text or "") for text in sound))  # ours, and no others
-    assert None not in sound and MARK not in words and len(words) < 200
+    assert None not in sound and MARK not in words and len(words) < 220
     seen = Counter[str]()
     longest = sorted(small_ones(), key=lambda c: len(json.dumps(c)))
     for certificate in {json.dumps([c["kind"], sorted(c["witness"]), c["statement"].get("matrix")]): c for c in longest}.values():

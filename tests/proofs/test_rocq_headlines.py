@@ -152,6 +152,7 @@ CHANGES: dict[str, tuple[str, str]] = {
     "sharp_equality_lag": ("(lag S' <= lag S)%N -> ", ""),
     "zero_assignment_observable": ("observable S -> ", ""),
     "zero_assignment_unobservable": ("char_poly M %| g /\\ ", ""),
+    "minimal_basis_by_states": ("(p <= \\rank (sysG S) + k)", "(p <= \\rank (sysG S) + k.+1)"),
     "minimal_basis_seen": ("\\rank (Vocabulary.leading Y) = k -> ", ""),
     "check_window_ranks": ("minn s eta", "minn s.+1 eta"),
     "check_window_ranks_modulo": ("minn s eta", "minn s.+1 eta"),
@@ -191,6 +192,7 @@ CHANGES: dict[str, tuple[str, str]] = {
     "field_hankel": ("(hankel N s", "(hankel N.+1 s"),
     "field_excitation": (" N s) = r", " N.+1 s) = r"),
     "field_finite_zeros": ("\\rank (transfer S) = r", "\\rank (transfer S) = r.+1"),
+    "field_infinite_zeros": ("(take j orders)", "(take j.+1 orders)"),
 }
 
 

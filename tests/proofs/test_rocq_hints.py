@@ -8,7 +8,6 @@ from random import Random
 from typing import NamedTuple
 
 import pytest
-from flint import nmod_poly
 
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
@@ -19,17 +18,17 @@ from faultspace.proofs.rocq.listed import NotCovered
 from faultspace.proofs.rocq.recompute import theory
 from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.rocq.terms import Terms
-from faultspace.proofs.rocq.text import vector
 from faultspace.proofs.trust import checker
 from faultspace.proofs.trust import structure_certificates as make
 from tests.proofs.basis_mutants import is_true, mutants
-from tests.proofs.examples import FLAT, Certificate, spoiled, written
+from tests.proofs.examples import Certificate, spoiled, written
 from tests.proofs.test_basis_mutants import NEEDED, stated
 
 needs_rocq = pytest.mark.skipif(rocq_build.found() is None, reason=rocq_build.INSTALL)
-UNSEEN = ResidualSystem.of([[0, 1], [0, 0]], [[], []], [[1, 0], [0, 0]], [[], []], n=2, m=0, p=2)  # indices 0 and 2
-DEPENDENT = stated(FLAT, [[[1, 0]], [[0, 1], [1, 0]]], [0, 1])
+BLANK = ResidualSystem.of([[1]], [[1]], [[1], [0]], [[1], [0]])  # the second output is zero, so that the index is 0
+WRONG = stated(BLANK, [[[0, 0], [1, 0]]], [0], "kernel_modulo")
 ROWS, FACTOR, MODULO = NEEDED["there may be more rows"], NEEDED["may have a common factor"], "that their shape allows"
+DEPENDENT = NEEDED["at the pivots are dependent"]
 
 
 class Weaker(NamedTuple):
@@ -41,55 +40,57 @@ class Weaker(NamedTuple):
 
 def forged(certificate: Certificate, **hints: str) -> Terms:
     """Returns the terms of a certificate with some parts of its hints replaced."""
-    names = ("point", "rows", "columns", "minor", "mix", "first", "second", "u", "v")
+    names = ("point", "rows", "columns", "minor", "leading", "places", "states")
     terms = translated(certificate)
     *others, (name, kind, given) = terms.definitions
-    parts = re.findall(r"\[::[^\]]*\]|-?\d+", given[given.index("Hints") :])
+    parts = re.findall(r"\[::[^\]]*\]|None|\(Some \d+\)|-?\d+", given[given.index("Hints") :])
     assert len(parts) == len(names)
     told = " ".join(hints.get(one, part) for one, part in zip(names, parts, strict=True))
     return replace(terms, definitions=(*others, (name, kind, f"inr (Hints {told})" if kind == "evidence" else f"Hints {told}")))
 
 
-def another_first(certificate: Certificate) -> Terms:
-    """Returns the terms of a certificate with q^2 in the place of the determinant of the rows at their pivots, and cofactors for it."""
-    (*_, second, _, _) = re.findall(r"\[::[^\]]*\]", translated(certificate).definitions[-1][2])
-    prime = certificate["witness"]["prime"]
-    one, u, v = nmod_poly([0, 0, 1], prime).xgcd(nmod_poly([int(x) for x in re.findall(r"\d+", second)], prime))
-    assert one.degree() == 0
-    return forged(certificate, first="[:: 0; 0; 1]", u=vector(int(x) for x in u.coeffs()), v=vector(int(x) for x in v.coeffs()))
-
-
 def modulo_one(certificate: Certificate) -> Terms:
     """Returns the terms of a certificate with 1 in the place of its prime."""
-    terms = forged(certificate, rows="[:: 0%N; 1%N; 1%N]", columns="[:: 0%N; 1%N; 2%N]")
+    terms = forged(certificate, point="(Some 1)", rows="[:: 0%N; 1%N; 1%N]", columns="[:: 0%N; 1%N; 2%N]")
     return replace(terms, definitions=tuple((name, kind, "1" if name == "l" else term) for name, kind, term in terms.definitions))
 
 
 def weaker_checks() -> list[Weaker]:
     """Returns every condition that a hint has to fulfil. FACTOR: a row times q - 1; ROWS: none where there is one."""
     whole = "[:: 0%N; 1%N; 2%N]"
-    wrong_rows = stated(UNSEEN, [[[3, 1], [1, 0]], [[2, 5], [0, 1]]], [0, 1], "kernel_modulo")
+    states = "is_minor (size states) n l states (iota 0 (size states)) (state_columns h) (state_minor h)"
     return [
         Weaker("Z.ltb 1 l", modulo_one(ROWS)),
         Weaker("all (fun row => annihilated L row.2) rows", translated(NEEDED["does not annihilate the system"])),
-        Weaker("all (fun row => annihilated_modulo l L row.2) rows", translated(wrong_rows)),
-        Weaker("is_determinant_polynomial l (pivot_table n pivots ys) (at_pivots_is h)", another_first(FACTOR)),
+        Weaker("all (fun row => annihilated_modulo l L row.2) rows", translated(WRONG)),
         Weaker(
-            "is_determinant_polynomial l (mixed_table l (mixtures l (mix h) (n + p) (size rows)) ys) (mixed_is h)",
-            forged(FACTOR, second="[:: 1]", u="[::]", v="[:: 1]"),
+            "invertible_modulo l (leading_minor h) && is_determinant l (size rows) (leading rows) (leading_minor h)", translated(DEPENDENT)
         ),
-        Weaker("invertible_modulo l d && is_determinant l (size rows) (leading rows) d", translated(DEPENDENT)),
-        Weaker("coprime_modulo l (at_pivots_is h) (mixed_is h) (first_cofactor h) (second_cofactor h)", translated(FACTOR)),
-        Weaker("(n + p <= size (minor_rows h) + size rows)%N", translated(ROWS)),
-        Weaker("pencil_minor n m p l L (at_point h) (minor_rows h) (minor_columns h) (minor h)", forged(ROWS, rows=whole, columns=whole)),
+        Weaker(states, translated(FACTOR)),
+        Weaker("(n + p <= rank_shown n (at_point h) (minor_rows h) + size rows)%N", translated(ROWS)),
+        Weaker(
+            "pencil_minor n m p l L (at_point h) (minor_rows h) (minor_columns h) (minor h)",
+            forged(ROWS, point="(Some 1)", rows=whole, columns=whole),
+        ),
         Weaker("generic n m p rows", translated(NEEDED[MODULO])),
+    ]
+
+
+def weaker_minors() -> list[Weaker]:
+    """Returns the conditions that a minor has to fulfil, with one that passes without: the two states of FACTOR have one entry each."""
+    places = "[:: 0%N; 0%N]"
+    return [
+        Weaker("invertible_modulo l d", forged(FACTOR, places=places, states="0")),
+        Weaker(
+            "is_determinant l (size rows) [seq at_pivots columns (nth [::] T i) | i <- rows] d", forged(FACTOR, places=places, states="1")
+        ),
     ]
 
 
 def weakened(condition: str) -> str:
     """Returns the checks of window ranks without one of the conditions, where it stands first."""
     text = sources()["CertificatesVocabulary.v"]
-    text = text[text.index("Definition minimal n m p") : text.index("(** ** The checks: solutions")]
+    text = text[text.index("Definition is_minor a b") : text.index("(** ** The checks: solutions")]
     assert condition in text, condition
     return text.replace(condition, f"({condition} || true)", 1)
 
@@ -127,7 +128,7 @@ class Questions:
 
 def ask_without_conditions(questions: Questions) -> None:
     """Without one of its conditions the check lets something false pass, which it refuses as it is."""
-    for condition, terms in weaker_checks():
+    for condition, terms in [*weaker_checks(), *weaker_minors()]:
         questions.ask(asked(terms), False, condition)
         questions.ask(f"{weakened(condition)}{asked(terms)}", True, f"without {condition}")
 
@@ -187,8 +188,7 @@ def test_rocq_and_the_checker_agree_on_many_structured_mutations() -> None:
 
 
 def test_what_passes_weaker_checks_is_false() -> None:
-    false = [ROWS, FACTOR, DEPENDENT, *NEEDED.values(), stated(UNSEEN, [[[3, 1], [1, 0]], [[2, 5], [0, 1]]], [0, 1], "kernel_modulo")]
-    assert not any(is_true(one["statement"]) for one in false)
+    assert not any(is_true(one["statement"]) for one in [WRONG, *NEEDED.values()])
 
 
 SMALLEST = {

@@ -2,8 +2,8 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import Vocabulary CertificatesVocabulary Lists ListedSystems SeenBasis SeenRows.
-From faultspace Require Import Elimination PolynomialDeterminant IntegralWindows.
+From faultspace Require Import Vocabulary CertificatesVocabulary Lists ListedSystems SeenBasis BasisByStates SeenRows.
+From faultspace Require Import Elimination IntegralWindows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -58,22 +58,6 @@ have := h c0; rewrite /=; case: (weighted _ c) => w cs /= <-.
 by rewrite (last_map (fun u => col_over p (reduced l u))) /col_over (vec_reduced vanishing).
 Qed.
 
-Lemma col_joined (d : vector * vector) : col_over (n + p) (joined n d) = col_mx (col_over n d.1) (col_over p d.2).
-Proof.
-apply/colP => i; rewrite !mxE; case: (split_ordP i) => j ->; rewrite !mxE /entry /joined nth_cat size_mkseq /=.
-  by rewrite ltn_ord nth_mkseq.
-by rewrite ltnNge leq_addr addKn.
-Qed.
-
-Lemma polynomial_row_nth c k : (k < size c)%N -> col_over (n + p) (nth [::] (polynomial_row n l L c) k)
-  = col_mx (horner_state (sysA S) (sysC S) (drop k.+1 (row_over c))) (row_over c)`_k.
-Proof.
-set cw := [seq reduced l u | u <- (weighted (den L) c).2]; have sw : size cw = size c by rewrite size_map weighted_size.
-rewrite -sw /polynomial_row /demands_modulo -/cw horner_modulo_demands -map_comp => kc.
-rewrite (nth_map 0%N) ?size_iota // nth_iota // add0n /= col_joined /= horner_modulo_meaning map_drop.
-by rewrite /row_over -/cw [X in _ = col_mx _ X](nth_map [::]).
-Qed.
-
 Lemma annihilated_modulo_sound c : annihilated_modulo l L c -> passes S (row_over c).
 Proof.
 rewrite /annihilated_modulo /demands_modulo; set cw := map _ _; case e: (horner_modulo l L cw) => [X ds] /andP[X0 /allP ds0].
@@ -98,45 +82,6 @@ Qed.
 
 Lemma pivot_proof (a : 'I_k) : ((nth (0%N, [::]) rows a).1 < p)%N. Proof. by have [] := row_facts (ltn_ord a). Qed.
 Definition pivot_of a : 'I_p := Ordinal (pivot_proof a).
-Notation Y := (columns_of S (fun a : 'I_k => c a)).
-
-(** An entry of J Y, as a polynomial: coefficients are w times those of the row. *)
-Lemma combined_polynomial (w : 'rV[K]_(n + p)) (a : 'I_k) (g : vector) :
-  (forall i, (i < size (nth (0%N, [::]) rows a).2)%N ->
-    number K (entry g i) = (w *m col_over (n + p) (nth [::] (polynomial_row n l L (nth (0%N, [::]) rows a).2) i)) 0 0) ->
-  (size g <= size (nth (0%N, [::]) rows a).2)%N ->
-  pol K g = (row_mx (- map_mx polyC (lsubmx w)) (map_mx polyC (rsubmx w)) *m col a Y) 0 0.
-Proof.
-move=> e short; rewrite col_columns; apply/polyP => i; rewrite coef_pol.
-have split_w (y : 'cV[K]_(n + p)) : (row_mx (- lsubmx w) (rsubmx w) *m y) = w *m col_mx (- usubmx y) (dsubmx y).
-  by rewrite -{1}[y]vsubmxK -{3}[w]hsubmxK !mul_row_col mulNmx mulmxN.
-transitivity ((row_mx (- lsubmx w) (rsubmx w) *m (if (i < size (c a))%N then coefficient S (c a) i else 0)) 0 0); last first.
-  rewrite [(_ *m column_of _ _) 0 0]mxE coef_sum [LHS]mxE; apply: eq_bigr => j _; rewrite [column_of _ _ _ _]mxE.
-  have -> : row_mx (- map_mx polyC (lsubmx w)) (map_mx polyC (rsubmx w)) 0 j = (row_mx (- lsubmx w) (rsubmx w) 0 j)%:P.
-    by case: (split_ordP j) => t ->; rewrite ?row_mxEl ?row_mxEr !mxE ?polyCN.
-  by rewrite coefCM coef_poly; case: ifP; rewrite ?mxE ?mulr0.
-rewrite row_over_size; case: ifP => [ic|/negbT]; last first.
-  by rewrite -leqNgt => ci; rewrite mulmx0 mxE /entry nth_default ?(leq_trans short) // [LHS](rmorph0 phi).
-by rewrite e // split_w /coefficient col_mxKu col_mxKd opprK polynomial_row_nth.
-Qed.
-
-(** Determinants of tables of polynomials that combine the rows. *)
-Definition combining (w : 'I_k -> 'rV[K]_(n + p)) : 'M[{poly K}]_(k, n + p) :=
-  \matrix_b row_mx (- map_mx polyC (lsubmx (w b))) (map_mx polyC (rsubmx (w b))).
-
-Lemma combined_determinant w (T : seq table) f : size T = k -> is_determinant_polynomial l T f ->
-  (forall (a b : 'I_k), let g := nth [::] (nth [::] T a) b in let row := (nth (0%N, [::]) rows a).2 in (size g <= size row)%N /\
-    forall i, (i < size row)%N -> number K (entry g i) = (w b *m col_over (n + p) (nth [::] (polynomial_row n l L row) i)) 0 0) ->
-  \det (combining w *m Y) = pol K f.
-Proof.
-move=> sT /(is_determinant_polynomial_sound vanishing sT) <- e; rewrite -det_tr; congr (\det _); apply/matrixP => a b; rewrite mxE [RHS]mxE.
-have [short coefs] := e a b; rewrite /pols (combined_polynomial coefs short).
-transitivity ((combining w *m Y) b a); first by [].
-by rewrite [LHS]mxE [RHS]mxE; apply: eq_bigr => i _; rewrite [combining w b i]mxE mxE [col a Y i 0]mxE.
-Qed.
-
-Lemma polynomial_row_size c : size (polynomial_row n l L c) = size c.
-Proof. by rewrite size_map /demands_modulo horner_modulo_demands !size_map size_iota weighted_size. Qed.
 
 Lemma pencil_entry (x : Z) (i : 'I_(n + m)) (j : 'I_(n + p)) :
   map_mx (horner_eval (phi (Z.mul (den L) x))) (pencil S) i j = phi (entry (nth [::] (pencil_table n L x) i) j).
@@ -155,50 +100,83 @@ case: (split_ordP j) => t ->; rewrite ?block_mxEdl ?block_mxEdr /=.
 by rewrite addKn !mxE /horner_eval hornerC.
 Qed.
 
-Lemma pencil_minor_sound x minor_rows columns d : pencil_minor n m p l L x minor_rows columns d ->
-  (size minor_rows <= \rank (map_mx (horner_eval (phi (Z.mul (den L) x))) (pencil S)))%N.
+(** A minor that is not zero. *)
+Lemma is_minor_sound a b (T : table) (minor_rows columns : seq nat) d (M : 'M[K]_(a, b)) : is_minor a b l T minor_rows columns d ->
+  (forall i j, M i j = phi (entry (nth [::] T i) j)) -> (size minor_rows <= \rank M)%N.
 Proof.
-case/and5P=> /allP r_in /allP c_in /eqP sizes unit /(is_determinant_sound vanishing) e.
-have row_lt (i : 'I_(size minor_rows)) : (nth 0%N minor_rows i < n + m)%N by apply/r_in/mem_nth.
-have column_lt (j : 'I_(size minor_rows)) : (nth 0%N columns j < n + p)%N by apply/c_in/mem_nth; rewrite sizes.
+case/and5P=> /allP r_in /allP c_in /eqP sizes unit /(is_determinant_sound vanishing) e entries.
+have row_lt (i : 'I_(size minor_rows)) : (nth 0%N minor_rows i < a)%N by apply/r_in/mem_nth.
+have column_lt (j : 'I_(size minor_rows)) : (nth 0%N columns j < b)%N by apply/c_in/mem_nth; rewrite sizes.
 apply: (@minor_rank _ _ _ _ _ (fun i => Ordinal (row_lt i)) (fun j => Ordinal (column_lt j))).
 move: (invertible_neq0 unit); rewrite -e; congr (\det _ != 0); apply/matrixP => i j.
-rewrite mxE [LHS]mxE [RHS]mxE pencil_entry /= (nth_map 0%N) // /at_pivots {1}/entry (nth_map 0%N) ?sizes //.
+rewrite mxE [LHS]mxE [RHS]mxE entries /= (nth_map 0%N) // /at_pivots {1}/entry (nth_map 0%N) ?sizes //.
+Qed.
+
+Lemma pencil_minor_sound q minor_rows columns d : pencil_minor n m p l L q minor_rows columns d ->
+  (rank_shown n q minor_rows <= \rank (over_fractions (pencil S)))%N.
+Proof.
+case: q => [x|] /is_minor_sound shown.
+  exact: leq_trans (shown _ (pencil_entry x)) (rank_at_point _ _).
+by apply: leq_trans (rank_at_infinity S); rewrite leq_add2l shown // => i j; rewrite !mxE.
+Qed.
+
+(** The states of all rows, by row and degree. *)
+Let places := flatten [seq [seq (a, j) | j <- iota 0 (size (nth (0%N, [::]) rows a).2).-1] | a <- iota 0 k].
+Let state_at (place : nat * nat) : 'cV[K]_n := horner_state (sysA S) (sysC S) (drop place.2.+1 (c place.1)).
+
+Lemma states_at : map (col_over n) (states_of_rows l L rows) = map state_at places.
+Proof.
+rewrite /states_of_rows /places !map_flatten; congr flatten.
+rewrite -{1}[rows](mkseq_nth (0%N, [::])) /mkseq -!map_comp; apply/eq_in_map => a; rewrite mem_iota /= => ak.
+set row := nth _ rows a; rewrite /demands_modulo horner_modulo_demands !size_map weighted_size -!map_comp -map_take take_iota.
+rewrite -map_comp (minn_idPl (leq_pred _)); apply/eq_in_map => j _ /=.
+by rewrite horner_modulo_meaning map_drop.
+Qed.
+
+Lemma states_independent d columns : is_minor (size (states_of_rows l L rows)) n l (states_of_rows l L rows)
+    (iota 0 (size (states_of_rows l L rows))) columns d ->
+  forall w : 'I_k -> nat -> K,
+  \sum_(a < k) \sum_(j < (size (c a)).-1) w a j *: horner_state (sysA S) (sysC S) (drop j.+1 (c a)) = 0 ->
+  forall (a : 'I_k) j, (j < (size (c a)).-1)%N -> w a j = 0.
+Proof.
+set T := states_of_rows l L rows; pose t := size T => minor w zero a j ja.
+have t_places : size places = t by rewrite -(size_map state_at) -states_at size_map.
+pose M : 'M[K]_(t, n) := \matrix_(i, j) phi (entry (nth [::] T i) j).
+have tM : (t <= \rank M)%N by have := is_minor_sound (M := M) minor; rewrite size_iota; apply=> i' j'; rewrite mxE.
+have row_M (i : 'I_t) : (row i M)^T = state_at (nth (0%N, 0%N) places i).
+  rewrite -(nth_map _ 0 state_at) ?t_places // -states_at (nth_map [::]) //.
+  by apply/colP => j0; rewrite !mxE.
+pose w' (place : nat * nat) := if insub place.1 is Some a' then w (a' : 'I_k) place.2 else 0.
+have w'E (a' : 'I_k) j0 : w' (a' : nat, j0) = w a' j0 by rewrite /w' valK.
+have zM : (\row_(i < t) w' (nth (0%N, 0%N) places i)) *m M = 0.
+  apply: trmx_inj; rewrite trmx0 -zero mulmx_sum_row linear_sum /=.
+  transitivity (\sum_(place <- places) w' place *: state_at place).
+    rewrite (big_nth (0%N, 0%N)) t_places big_mkord; apply: eq_bigr => i _; by rewrite linearZ /= row_M mxE.
+  rewrite big_flatten big_map -{1}[k]subn0 big_mkord; apply: eq_bigr => a' _.
+  rewrite big_map row_over_size -{1}[(size _).-1]subn0 big_mkord; apply: eq_bigr => j0 _.
+  by rewrite w'E.
+have free : row_free M by rewrite /row_free eqn_leq rank_leq_row.
+move/eqP: zM; rewrite mulmx_free_eq0 // => /eqP/rowP z0.
+have a_in : (a : nat, j) \in places.
+  apply/flattenP; exists [seq (a : nat, j0) | j0 <- iota 0 (size (nth (0%N, [::]) rows a).2).-1].
+    by apply/mapP; exists (a : nat); rewrite ?mem_iota //=.
+  by apply/mapP; exists j; rewrite // mem_iota /= add0n -row_over_size.
+have it : (index (a : nat, j) places < t)%N by rewrite -t_places index_mem.
+by have := z0 (Ordinal it); rewrite !mxE /= nth_index // w'E.
 Qed.
 
 Theorem minimal_modulo s : (k <= p)%N /\
   \rank (window S s) = (s * (p - k) + \sum_(mu <- degrees rows) minn s mu)%N.
 Proof.
-case/andP: (ok) => _ /and5P[first_ok second_ok /andP[lead_unit lead_ok] coprime /andP[few pencil_ok]].
-pose ws := mixtures l (mix h) (n + p) k.
-pose pick (b : 'I_k) : 'rV[K]_(n + p) := delta_mx 0 (rshift n (pivot_of b)).
-pose blend (b : 'I_k) : 'rV[K]_(n + p) := vec K (n + p) (nth [::] ws b).
-have sizes s' x j : size (geometric l s' x j) = j by elim: j x => //= j IH x; rewrite IH.
-have ws_size : size ws = k by rewrite size_map sizes.
-have mix_size (b : 'I_k) : (size (nth [::] ws b) <= n + p)%N by rewrite (nth_map Z0) ?sizes.
-have e1 : \det (combining pick *m Y) = pol K (at_pivots_is h).
-  apply: combined_determinant first_ok _; rewrite ?size_map // => a b.
-  rewrite (nth_map [::]) ?size_map // (nth_map (0%N, [::])) // (nth_map 0%N) ?size_map // => g row.
-  rewrite /g size_map polynomial_row_size; split=> // i ir; rewrite /entry (nth_map [::]) ?polynomial_row_size // /pick -rowE !mxE.
-  by rewrite /= (nth_map (0%N, [::])).
-have e2 : \det (combining blend *m Y) = pol K (mixed_is h).
-  apply: combined_determinant second_ok _; rewrite ?size_map // => a b.
-  rewrite (nth_map [::]) ?size_map // (nth_map (0%N, [::])) // (nth_map [::]) ?ws_size // => g row.
-  rewrite /g size_map polynomial_row_size; split=> // i ir; rewrite /entry (nth_map [::]) ?polynomial_row_size //
-    [LHS](number_modulo vanishing).
-  by rewrite (number_dot _ _ (_ : (size _ <= n + p)%N)) ?mxE ?eqxx // mix_size.
+case/andP: (ok) => _ /and4P[/andP[lead_unit lead_ok] /states_independent states few /pencil_minor_sound enough].
 have leads : \det (\matrix_(a < k, b < k) last 0 (c a) (pivot_of b) 0) != 0.
   move: (invertible_neq0 lead_unit); rewrite -(is_determinant_sound vanishing lead_ok); congr (\det _ != 0); apply/matrixP => a b.
   rewrite mxE [RHS]mxE [LHS]mxE (nth_map (0%N, [::])) // /at_pivots {1}/entry (nth_map 0%N) ?size_map // (nth_map (0%N, [::])) //.
   by rewrite last_row_over !mxE.
-have seen : coprimep (\det (combining pick *m Y)) (\det (combining blend *m Y)).
-  by rewrite e1 e2; apply: coprime_modulo_sound coprime.
-have enough := pencil_minor_sound pencil_ok.
 have kernel (a : 'I_k) : passes S (c a) by have [] := row_facts (ltn_ord a).
 have nonempty (a : 'I_k) : (0 < size (c a))%N by rewrite row_over_size; have [] := row_facts (ltn_ord a).
-have {}few : (n + p <= \rank (map_mx (horner_eval (phi (Z.mul (den L) (at_point h)))) (pencil S)) + k)%N.
-  by apply: leq_trans few _; rewrite leq_add2r.
-have [kp ->] := seen_rank kernel nonempty leads seen few s.
+have {}few : (n + p <= \rank (over_fractions (pencil S)) + k)%N by apply: leq_trans few _; rewrite leq_add2r.
+have [kp ->] := seen_rank kernel nonempty leads states few s.
 split=> //; congr (_ + _)%N; rewrite /degrees big_map (big_nth (0%N, [::])) big_mkord.
 by apply: eq_bigr => a _; rewrite row_over_size.
 Qed.

@@ -3,8 +3,8 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import Vocabulary Gap Balance Lag Proposition3 NormalRank SeenBasis.
-From faultspace Require Import CertificatesVocabulary Lists Independence KernelRows Elimination IntegralWindows CheckRows CheckMinimal.
+From faultspace Require Import Vocabulary Gap Balance Lag Proposition3 NormalRank.
+From faultspace Require Import CertificatesVocabulary Independence KernelRows Elimination IntegralWindows CheckRows CheckMinimal.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -44,7 +44,7 @@ Let S := meant n m p L.
 Lemma minimal_independent rows h : minimal n m p l L rows h -> sorted leq [seq size row.2 | row <- rows] ->
   independent_leads (meant_rows p rows).
 Proof.
-case/andP=> /and4P[l1 _ /allP shapes _] /and5P[_ _ /andP[lead_unit lead_ok] _ _] ascending.
+case/andP=> /and4P[l1 _ /allP shapes _] /and4P[/andP[lead_unit lead_ok] _ _ _] ascending.
 apply: ascending_independent => //; first by apply/allP => row /shapes/andP[].
 have [K vanishing] := field_modulo l1; rewrite mat_image; apply: unit_by_determinant.
 move: (invertible_neq0 vanishing lead_unit); rewrite -(is_determinant_sound vanishing lead_ok) mat_image det_map_mx.
@@ -171,12 +171,11 @@ Qed.
 Theorem left_invertible_sound ws : check_left_invertible n m p l L ws -> left_invertible S.
 Proof. by case/and3P=> wf w enough; apply: rank_left_invertible; apply: leq_trans enough _; apply: words_rank w. Qed.
 
-(** The pencil has full row rank at a point, modulo l. *)
+(** The pencil has full row rank at a point, or at infinity, modulo l. *)
 Theorem left_invertible_at_sound q rows columns d : check_left_invertible_at n m p l L q rows columns d -> left_invertible S.
 Proof.
-case/and5P=> wf /field_modulo[K vanishing] _ /eqP full /(pencil_minor_sound vanishing wf); rewrite full => at_q.
-have /(leq_trans at_q) := rank_at_point (pencil (over_field K n m p L)) (number_rmorphism K (Z.mul (den L) q)).
-rewrite pencil_rank_gap leq_add2l => gap_m; apply: rank_left_invertible; apply: leq_trans (rank_from_below K _ wf).
+case/and5P=> wf /field_modulo[K vanishing] _ /eqP full /(pencil_minor_sound vanishing wf); rewrite full pencil_rank_gap leq_add2l => gap_m.
+apply: rank_left_invertible; apply: leq_trans (rank_from_below K _ wf).
 suff h s : (s <= n.+1)%N -> (s * m <= \rank (window (over_field K n m p L) s))%N by apply: h.
 elim: s => // s IH sn; rewrite rank_window_step mulSn addnC leq_add ?IH ?(ltnW sn) //.
 by apply: leq_trans gap_m _; apply: gap_at_least_last.

@@ -1,7 +1,7 @@
 (** Kernel rows c_0, ..., c_mu of a system over a field, here columns, with the costates of Horner's rule: polynomial columns in the kernel
-    of the pencil. Where they are seen to be a minimal basis (SeenBasis.v), they give the ranks of all windows. *)
+    of the pencil. Where they are seen to be a minimal basis by their states (BasisByStates.v), they give the ranks of all windows. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Gap Lag PolynomialKernel Annihilator Indices SeenBasis ListedSystems.
+From faultspace Require Import Vocabulary PolynomialKernel Annihilator SeenBasis BasisByStates ListedSystems.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -79,25 +79,31 @@ have /matrixP/(_ (rshift n (pivot b)) 0) := last_coefficient a; rewrite [RHS]col
 by rewrite [RHS]mxE [RHS]mxE [RHS]mxE degree_columns [columns_of _ _]mxE [column_of _ _ _]mxE coef_poly ltn_predL nonempty.
 Qed.
 
-Variables (J W : 'M[{poly K}]_(k, n + p)) (q : K).
-Hypothesis seen : coprimep (\det (J *m columns_of)) (\det (W *m columns_of)).
-Hypothesis few : (n + p <= \rank (map_mx (horner_eval q) (pencil S)) + k)%N.
+Hypothesis states : forall w : 'I_k -> nat -> K,
+  \sum_a \sum_(j < (size (c a)).-1) w a j *: hstate (drop j.+1 (c a)) = 0 -> forall a j, (j < (size (c a)).-1)%N -> w a j = 0.
+Hypothesis few : (n + p <= \rank (over_fractions (pencil S)) + k)%N.
+
+Lemma states_columns a j : (j < (size (c a)).-1)%N -> coefm j (col a (usubmx columns_of)) = - hstate (drop j.+1 (c a)).
+Proof.
+move=> ja; have -> : col a (usubmx columns_of) = usubmx (column_of (c a)) by rewrite -col_columns; apply/colP => i; rewrite !mxE.
+apply/colP => i; have /matrixP/(_ (lshift p i) 0) := coefm_polym (size (c a)) (coefficient (c a)) j.
+by rewrite (leq_trans ja) ?leq_pred // col_mxEu => e; rewrite -e !mxE.
+Qed.
 
 Theorem rows_minimal : minimal_basis (pencil S) columns_of.
 Proof.
-apply: (minimal_basis_seen _ seen few leading_columns); apply/matrixP => i a.
-transitivity ((pencil S *m col a columns_of) i 0); last by rewrite col_columns passes_kernel // !mxE.
-by rewrite colE mulmxA -colE [RHS]mxE.
+apply: minimal_basis_by_states leading_columns few.
+  apply/matrixP => i a; transitivity ((pencil S *m col a columns_of) i 0); last by rewrite col_columns passes_kernel // !mxE.
+  by rewrite colE mulmxA -colE [RHS]mxE.
+move=> w zero a j; rewrite degree_columns; apply: (@states w); apply/eqP; rewrite -oppr_eq0 -[X in _ == X]zero -sumrN.
+apply/eqP/eq_bigr => b _; rewrite -sumrN degree_columns; apply: eq_bigr => i _.
+by rewrite states_columns // scalerN.
 Qed.
 
 (** The ranks of all windows. *)
 Theorem seen_rank s : (k <= p)%N /\ \rank (window S s) = (s * (p - k) + \sum_(a < k) minn s (size (c a)).-1)%N.
 Proof.
-have perm := etas_are_minimal_indices rows_minimal; have sizes := perm_size perm.
-have kp : (k = p - gap S n)%N by move: sizes; rewrite size_map size_enum_ord size_etas.
-split; first by rewrite kp leq_subr.
-rewrite rank_window_etas -(perm_big _ perm) big_map big_enum /=; congr (s * _ + _)%N.
-  by rewrite kp subKn ?gap_le_outputs.
+have [kp ranks] := basis_windows rows_minimal; split=> //; rewrite ranks; congr (_ + _)%N.
 by apply: eq_bigr => a _; rewrite degree_columns.
 Qed.
 

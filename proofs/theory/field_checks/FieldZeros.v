@@ -1,4 +1,5 @@
-(** The finite zeros of a system told by lists of numbers, by multipliers that make its pencil diagonal. *)
+(** Diagonal forms of polynomial matrices, and the finite zeros of a system told by lists of numbers, by multipliers that make its pencil
+    diagonal. *)
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify.
@@ -108,6 +109,17 @@ rewrite diagonal_poly; apply/matrixP => i j; rewrite !mxE nth_nseq ltn_ord pol_o
 by case: (_ == _).
 Qed.
 
+Lemma is_diagonalized_sound a b T d U U' V V' : size T = a -> is_diagonalized a b T d U U' V V' ->
+  [/\ poly_matrix a a U *m poly_matrix a a U' = 1%:M, poly_matrix b b V *m poly_matrix b b V' = 1%:M
+    & poly_matrix a a U *m poly_matrix a b T *m poly_matrix b b V = \matrix_(i, j) if i == j :> nat then pol (nth [::] d i) else 0].
+Proof.
+move=> sT /andP[/and4P[/andP[/eqP sU _] /andP[/eqP sU' _] /andP[/eqP sV _] /andP[/eqP sV' _]]].
+case/and3P=> /equal_poly_tables oneU /equal_poly_tables oneV /equal_poly_tables diag.
+have sUT : size (@table_product (polynomials R) U T) = a by rewrite size_map.
+move: oneU oneV diag; rewrite !diagonal_one (poly_product (b := a) _ sU) ?sU' // (poly_product (b := b) _ sV) ?sV' //.
+by rewrite (poly_product (b := b) _ sUT) ?sV // (poly_product (b := a) _ sU) ?sT // diagonal_poly.
+Qed.
+
 Variables (n m p : nat) (L : listing R).
 Let S := system_of value n m p L.
 
@@ -130,12 +142,9 @@ Theorem has_finite_zeros_sound r g c d U U' V V' : has_finite_zeros n m p r L g 
   [/\ \rank (transfer S) = r, gcd_of_minors_of_order (n + r) (pencil S) (pol g) & pol g \is monic].
 Proof.
 rewrite /has_finite_zeros; set a := (n + m)%N; set b := (n + p)%N; set places := nonzero_places _ _ _.
-case/andP=> /and5P[/andP[/eqP sU _] /andP[/eqP sU' _] /andP[/eqP sV _] /andP[/eqP sV' _] /allP nonzero].
-case/and5P=> /equal_poly_tables oneU /equal_poly_tables oneV /equal_poly_tables diag /eqP sizes /and3P[unit_c monic_g /pol_blank same_g].
+case/andP=> /and5P[diagonal /allP nonzero /eqP sizes unit_c monic_g] /pol_blank same_g.
 have sP : size (pencil_rows n m p L) = a by rewrite size_cat !size_map !size_iota.
-have sUP : size (@table_product (polynomials R) U (pencil_rows n m p L)) = a by rewrite size_map.
-move: oneU oneV diag; rewrite !diagonal_one (poly_product (b := a) _ sU) ?sU' // (poly_product (b := b) _ sV) ?sV' //.
-rewrite (poly_product (b := b) _ sUP) ?sV // (poly_product (b := a) _ sU) ?sP // pencil_rows_meaning diagonal_poly.
+have [] := is_diagonalized_sound sP diagonal; rewrite pencil_rows_meaning.
 set MU := poly_matrix a a U; set MU' := poly_matrix a a U'; set MV := poly_matrix b b V; set MV' := poly_matrix b b V' => oneU oneV diag.
 have in_places (k : 'I_(size places)) : (nth 0%N places k < minn a b)%N /\ nth 0%N places k \in places.
   by have in_k := mem_nth 0%N (ltn_ord k); split=> //; move: in_k; rewrite mem_filter mem_iota add0n => /andP[].

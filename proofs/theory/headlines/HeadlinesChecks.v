@@ -3,15 +3,28 @@
     check_... are functions on such lists (CertificatesVocabulary.v), and all other arguments are witnesses that nobody has to believe. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary CertificatesVocabulary.
-From faultspace Require SeenBasis CheckRanks CheckSolutions CheckBehaviors CheckInversion CheckMatrices.
+From faultspace Require SeenBasis BasisByStates CheckRanks CheckSolutions CheckBehaviors CheckInversion CheckMatrices.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
 
 (** ** certificates *)
 
-(** What the hints of a certificate show. The columns of Y lie in the kernel of M, which has b columns, with independent leading
-    coefficients; two determinants of combinations of Y have no common factor; and at one point M leaves room for no more columns. *)
+(** What the hints of a certificate show. The columns of Y lie in the kernel of the pencil, with independent leading coefficients; their
+    states, the coefficients of their first n rows at the degrees below that of the column, are independent; and at one point q, or at
+    infinity, the pencil leaves room for no more columns. So these are a minimal basis, and tell the ranks of all windows. *)
+Theorem minimal_basis_by_states (K : fieldType) n m p k (S : system K n m p) (Y : 'M_(n + p, k)) q :
+  pencil S *m Y = 0 -> \rank (Vocabulary.leading Y) = k ->
+  (forall w : 'I_k -> nat -> K, \sum_a \sum_(j < degree Y a) w a j *: map_mx (coefp j) (col a (usubmx Y)) = 0 ->
+    forall a j, (j < degree Y a)%N -> w a j = 0) ->
+  (n + p <= \rank (map_mx (horner_eval q) (pencil S)) + k)%N \/ (p <= \rank (sysG S) + k)%N ->
+  minimal_basis (pencil S) Y /\
+  forall s, \rank (window S s) = (s * (p - k) + \sum_(a < k) minn s (degree Y a))%N.
+Proof. exact: BasisByStates.seen_by_states. Qed.
+Print Assumptions minimal_basis_by_states.
+
+(** The same for any polynomial matrix M, of b columns, where two determinants of combinations of Y have no common factor in the place of
+    the states. *)
 Theorem minimal_basis_seen (K : fieldType) a b k (M : 'M[{poly K}]_(a, b)) (Y : 'M_(b, k)) (J W : 'M_(k, b)) q :
   M *m Y = 0 -> \rank (Vocabulary.leading Y) = k -> coprimep (\det (J *m Y)) (\det (W *m Y)) ->
   (b <= \rank (map_mx (horner_eval q) M) + k)%N -> minimal_basis M Y.

@@ -5,7 +5,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary CertificatesVocabulary NumbersVocabulary.
-From faultspace Require FieldArithmetic FieldBehaviors FieldSolutions FieldInversion FieldMatrices FieldZeros.
+From faultspace Require FieldArithmetic FieldBehaviors FieldSolutions FieldInversion FieldMatrices FieldZeros FieldInfiniteZeros.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -134,3 +134,12 @@ Theorem field_finite_zeros (R : arithmetic) (K : fieldType) (value : numeral R -
   [/\ \rank (transfer S) = r, gcd_of_minors_of_order (n + r) (pencil S) (polynomial_of value g) & polynomial_of value g \is monic].
 Proof. move=> meaning; exact: (FieldZeros.has_finite_zeros_sound meaning). Qed.
 Print Assumptions field_finite_zeros.
+
+(** The orders of the infinite zeros, one by one: as many as the normal rank, ascending, and the highest power of q that divides the minors
+    of order n + j of the pencil at infinity is the sum of the first j *)
+Theorem field_infinite_zeros (R : arithmetic) (K : fieldType) (value : numeral R -> K) n m p orders L d U U' V V' : means value ->
+  has_infinite_zeros n m p orders L d U U' V V' -> let S := system_of value n m p L in
+  \rank (transfer S) = size orders /\
+  forall j e, (j <= size orders)%N -> divides_minors_of_order (n + j) (pencil_at_infinity S) 'X^e <-> (e <= sumn (take j orders))%N.
+Proof. move=> meaning; exact: (FieldInfiniteZeros.has_infinite_zeros_sound meaning). Qed.
+Print Assumptions field_infinite_zeros.

@@ -44,6 +44,36 @@ Lemma rank_at_point q : (\rank (map_mx (horner_eval q) M) <= \rank (over M))%N.
 Proof. by apply: rank_image => x y /eqP; rewrite tofrac_eq => /eqP. Qed.
 
 Hypothesis kernel : M *m Y = 0.
+
+(** With a left inverse, and no room for more columns. *)
+Section LeftInverse.
+Variable B : 'M[{poly K}]_(k, b).
+Hypotheses (inverse : B *m Y = 1%:M) (few : (b <= \rank (over M) + k)%N).
+
+Lemma inverse_generates (y : 'cV_b) : M *m y = 0 -> exists u, y = Y *m u.
+Proof.
+move=> My; exists (B *m y).
+have rank_Y : \rank (over Y) = k.
+  have BY' : over B *m over Y = 1%:M by rewrite /over_fractions -map_mxM inverse map_mx1.
+  by apply/eqP; rewrite eqn_leq rank_leq_col -[X in (X <= _)%N](mxrank1 [fieldType of {fraction {poly K}}]) -BY' mxrankM_maxr.
+have kernel_is : ((over y)^T <= (over Y)^T)%MS.
+  have sub : ((over Y)^T <= kermx (over M)^T)%MS by apply/sub_kermxP; rewrite -trmx_mul -map_mxM kernel map_mx0 trmx0.
+  have := mxrank_leqif_sup sub; rewrite !mxrank_tr rank_Y mxrank_ker mxrank_tr => eq.
+  apply: submx_trans (_ : (kermx (over M)^T <= _)%MS).
+    by apply/sub_kermxP; rewrite -trmx_mul -map_mxM My map_mx0 trmx0.
+  by rewrite -eq eqn_leq eq; move: few; lia.
+have /submxP[D /(congr1 trmx)] := kernel_is; rewrite trmxK trmx_mul trmxK => yD.
+apply/eqP; rewrite -subr_eq0; apply/eqP/over_eq0.
+rewrite map_mxB !map_mxM [map_mx _ y]yD (mulmxA (map_mx _ B)) -[map_mx _ B *m _]map_mxM inverse map_mx1 mul1mx.
+exact: subrr.
+Qed.
+
+Theorem minimal_basis_by_inverse : \rank (leading Y) = k -> minimal_basis M Y.
+Proof. by split=> //; apply: inverse_generates. Qed.
+
+End LeftInverse.
+
+(** Two determinants without a common factor give a left inverse. *)
 Variables (J W : 'M[{poly K}]_(k, b)).
 Hypothesis seen : coprimep (\det (J *m Y)) (\det (W *m Y)).
 Variable q : K.
@@ -56,25 +86,10 @@ exists (u *: (\adj (J *m Y) *m J) + v *: (\adj (W *m Y) *m W)).
 by rewrite mulmxDl -!scalemxAl -!mulmxA !mul_adj_mx !scale_scalar_mx -raddfD e.
 Qed.
 
-Lemma seen_generates (y : 'cV_b) : M *m y = 0 -> exists u, y = Y *m u.
-Proof.
-move=> My; have [B BY] := bezout; exists (B *m y).
-have rank_Y : \rank (over Y) = k.
-  have BY' : over B *m over Y = 1%:M by rewrite /over_fractions -map_mxM BY map_mx1.
-  by apply/eqP; rewrite eqn_leq rank_leq_col -[X in (X <= _)%N](mxrank1 [fieldType of {fraction {poly K}}]) -BY' mxrankM_maxr.
-have kernel_is : ((over y)^T <= (over Y)^T)%MS.
-  have sub : ((over Y)^T <= kermx (over M)^T)%MS by apply/sub_kermxP; rewrite -trmx_mul -map_mxM kernel map_mx0 trmx0.
-  have := mxrank_leqif_sup sub; rewrite !mxrank_tr rank_Y mxrank_ker mxrank_tr => eq.
-  apply: submx_trans (_ : (kermx (over M)^T <= _)%MS).
-    by apply/sub_kermxP; rewrite -trmx_mul -map_mxM My map_mx0 trmx0.
-  by rewrite -eq eqn_leq eq; have := rank_at_point q; move: few; lia.
-have /submxP[D /(congr1 trmx)] := kernel_is; rewrite trmxK trmx_mul trmxK => yD.
-apply/eqP; rewrite -subr_eq0; apply/eqP/over_eq0.
-rewrite map_mxB !map_mxM [map_mx _ y]yD (mulmxA (map_mx _ B)) -[map_mx _ B *m _]map_mxM BY map_mx1 mul1mx.
-exact: subrr.
-Qed.
-
 Theorem minimal_basis_seen : \rank (leading Y) = k -> minimal_basis M Y.
-Proof. by split=> //; apply: seen_generates. Qed.
+Proof.
+have [B BY] := bezout; apply: minimal_basis_by_inverse BY _.
+by apply: leq_trans few _; rewrite leq_add2r rank_at_point.
+Qed.
 
 End Seen.

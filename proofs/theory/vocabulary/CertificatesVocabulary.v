@@ -128,21 +128,6 @@ Fixpoint is_determinant (l : Z) (k : nat) (rows : table) (d : Z) : bool :=
     else all (fun other => Z.eqb (Z.modulo (entry other 0) l) Z0) rows && Z.eqb (Z.modulo d l) Z0
   else false else Z.eqb (Z.modulo (Z.sub d (Zpos xH)) l) Z0.
 
-(** Polynomials by their coefficients: values, products, and whether u f + v g is 1. *)
-Definition value_modulo (l x : Z) (f : vector) : Z := foldr (fun c rest => Z.modulo (Z.add c (Z.mul x rest)) l) Z0 f.
-Fixpoint product (f g : vector) : vector := if f is c :: f' then add (scale c g) (Z0 :: product f' g) else [::].
-Definition coprime_modulo (l : Z) (f g u v : vector) : bool :=
-  null (reduced l (add (add (product u f) (product v g)) [:: Zneg xH])).
-
-(** Whether the determinant of a table of polynomials is f: it has its values at 0, 1, 2, ..., which are more than its degree, and distinct
-    modulo every divisor of l. *)
-Definition degree_bound (T : seq table) : nat := sumn [seq (foldr maxn 0 [seq size f | f <- row]).-1 | row <- T]%N.
-Definition values_modulo (l : Z) (T : seq table) (x : Z) : table := [seq [seq value_modulo l x f | f <- row] | row <- T].
-Definition is_determinant_polynomial (l : Z) (T : seq table) (f : vector) : bool :=
-  [&& (size f <= (degree_bound T).+1)%N, all (fun i => invertible_modulo l (Z.of_nat i)) (iota 1 (degree_bound T))
-    & all (fun i => is_determinant l (size T) (values_modulo l T (Z.of_nat i)) (value_modulo l (Z.of_nat i) f))
-      (iota 0 (degree_bound T).+1)].
-
 (** ** The checks: kernel rows and words *)
 
 (** A kernel row: pivot and coefficients; a word: initial state, faults, and the sample and output where it has a one. *)
@@ -174,42 +159,37 @@ Definition demands_modulo (l : Z) (L : listed) (c : seq vector) := horner_modulo
 Definition annihilated_modulo (l : Z) (L : listed) (c : seq vector) : bool :=
   let (X, ds) := demands_modulo l L c in null X && all (fun d => null (reduced l (acts (lF L) (lG L) d))) ds.
 
-(** What is hinted at, modulo l: a point; a minor of the pencil at the point, by its rows, its columns and its value; the mix; the
-    determinants f of the rows at their pivots and g of the rows mixed; u and v with u f + v g = 1. *)
-Record hints := Hints { at_point : Z; minor_rows : seq nat; minor_columns : seq nat; minor : Z; mix : Z;
-  at_pivots_is : vector; mixed_is : vector; first_cofactor : vector; second_cofactor : vector }.
+(** The states X_1, ..., X_mu of all rows: what Horner's rule has before it comes to c_0. *)
+Definition states_of_rows (l : Z) (L : listed) (rows : seq kernel_row) : table :=
+  flatten [seq take (size row.2).-1 [seq d.1 | d <- (demands_modulo l L row.2).2] | row <- rows].
 
-(** The coefficients of a row [X, N]; the table of N at the pivots; x, x s, x s^2, ... (k of them); the vectors t, t^2, ...; t^2, t^4, ...;
-    and so on; the table of the rows mixed by them. *)
-Definition polynomial_row n (l : Z) (L : listed) (c : seq vector) : table := [seq joined n d | d <- (demands_modulo l L c).2].
-Definition pivot_table n (pivots : seq nat) (ys : seq table) : seq table :=
-  [seq [seq [seq entry y (n + j) | y <- Y] | j <- pivots] | Y <- ys].
-Fixpoint geometric (l s x : Z) (k : nat) : vector := if k is k'.+1 then x :: geometric l s (Z.modulo (Z.mul x s) l) k' else [::].
-Definition mixtures (l t : Z) (width k : nat) : table := [seq geometric l s s width | s <- geometric l t t k].
-Definition mixed_table (l : Z) (ws : table) (ys : seq table) : seq table :=
-  [seq [seq [seq Z.modulo (dot w y) l | y <- Y] | w <- ws] | Y <- ys].
+(** What is hinted at, modulo l: a point, none being infinity; a minor of the pencil there, by its rows, its columns and its value; the
+    minor of the leading coefficients at the pivots; as many columns as there are states, and the minor of the states there. *)
+Record hints := Hints { at_point : option Z; minor_rows : seq nat; minor_columns : seq nat; minor : Z; leading_minor : Z;
+  state_columns : seq nat; state_minor : Z }.
 
-(** The pencil at q, times the denominator; whether the minor of its rows and columns told is d, and not zero. *)
+(** The pencil at q, times the denominator; at infinity G is what counts beside the n states. Whether the minor of its rows and columns told
+    is d, and not zero; the rank that it shows. *)
 Definition pencil_table n (L : listed) (q : Z) : table :=
   [seq mkseq (fun j => Z.sub (if j == i then Z.mul (den L) q else Z0) (entry (nth [::] (lA L) i) j)) n ++ nth [::] (lC L) i
     | i <- iota 0 n]
   ++ [seq mkseq (fun j => Z.opp (entry r.1 j)) n ++ r.2 | r <- zip (lF L) (lG L)].
-Definition pencil_minor n m p (l : Z) (L : listed) (q : Z) (rows columns : seq nat) (d : Z) : bool :=
-  [&& all (fun i => i < n + m)%N rows, all (fun j => j < n + p)%N columns, size columns == size rows, invertible_modulo l d
-    & is_determinant l (size rows) [seq at_pivots columns (nth [::] (pencil_table n L q) i) | i <- rows] d].
+Definition is_minor a b (l : Z) (T : table) (rows columns : seq nat) (d : Z) : bool :=
+  [&& all (fun i => i < a)%N rows, all (fun j => j < b)%N columns, size columns == size rows, invertible_modulo l d
+    & is_determinant l (size rows) [seq at_pivots columns (nth [::] T i) | i <- rows] d].
+Definition pencil_minor n m p (l : Z) (L : listed) (q : option Z) (rows columns : seq nat) (d : Z) : bool :=
+  if q is Some x then is_minor (n + m) (n + p) l (pencil_table n L x) rows columns d else is_minor m p l (lG L) rows columns d.
+Definition rank_shown n (q : option Z) (rows : seq nat) : nat := if q is Some _ then size rows else (n + size rows)%N.
 
-(** The rows annihilate the system modulo l, their leading coefficients at the pivots are independent, both determinants are coprime, and
-    the pencil leaves room for no more rows. *)
+(** The rows annihilate the system modulo l, their leading coefficients at the pivots are independent, and so are their states; and the
+    pencil leaves room for no more rows. *)
 Definition minimal n m p (l : Z) (L : listed) (rows : seq kernel_row) (h : hints) : bool :=
-  let pivots := [seq row.1 | row <- rows] in
-  let ys := [seq polynomial_row n l L row.2 | row <- rows] in
+  let states := states_of_rows l L rows in
   [&& Z.ltb 1 l, invertible_modulo l (den L), all (fun row => (row.1 < p) && (0 < size row.2))%N rows
     & all (fun row => annihilated_modulo l L row.2) rows]
-  && [&& is_determinant_polynomial l (pivot_table n pivots ys) (at_pivots_is h),
-    is_determinant_polynomial l (mixed_table l (mixtures l (mix h) (n + p) (size rows)) ys) (mixed_is h),
-    (let d := entry (at_pivots_is h) (sumn (degrees rows)) in invertible_modulo l d && is_determinant l (size rows) (leading rows) d),
-    coprime_modulo l (at_pivots_is h) (mixed_is h) (first_cofactor h) (second_cofactor h),
-    (n + p <= size (minor_rows h) + size rows)%N
+  && [&& invertible_modulo l (leading_minor h) && is_determinant l (size rows) (leading rows) (leading_minor h),
+    is_minor (size states) n l states (iota 0 (size states)) (state_columns h) (state_minor h),
+    (n + p <= rank_shown n (at_point h) (minor_rows h) + size rows)%N
     & pencil_minor n m p l L (at_point h) (minor_rows h) (minor_columns h) (minor h)].
 
 (** ** The checks: ranks of windows *)
@@ -229,7 +209,8 @@ Definition check_window_ranks n m p r (etas ranks : seq nat) l L rows lower : bo
   meets n m p n.+1 l L rows lower && follows p r etas ranks rows.
 Definition check_left_invertible n m p l L ws : bool := [&& well_formed n m p L, words p n.+1 l L ws & (n.+1 * m <= size ws)%N].
 Definition check_left_invertible_at n m p l L q rows columns d : bool :=
-  [&& well_formed n m p L, Z.ltb 1 l, invertible_modulo l (den L), size rows == (n + m)%N & pencil_minor n m p l L q rows columns d].
+  [&& well_formed n m p L, Z.ltb 1 l, invertible_modulo l (den L), rank_shown n q rows == (n + m)%N
+    & pencil_minor n m p l L q rows columns d].
 
 (** Ranks of all windows where these have all the rank that their shape allows: rows modulo l are enough. *)
 Definition generic n m p (rows : seq kernel_row) : bool := nilp rows ||

@@ -269,7 +269,7 @@ Definition excitation_has_rank n m p N s r L x vs nulls combinations : bool :=
 
 End Checks.
 
-(** ** Polynomials, and the check of finite zeros *)
+(** ** Polynomials, and the checks of finite and infinite zeros *)
 
 (** Polynomials by their coefficients are numbers themselves: they mean elements of the field of rational functions. *)
 Fixpoint convolved (R : arithmetic) (u v : seq (numeral R)) : seq (numeral R) :=
@@ -295,16 +295,36 @@ Definition pencil_rows n m p (L : listing R) : seq (seq (seq (numeral R))) :=
   ++ [seq mkseq (fun j => [:: minus (zero R) (at_place (nth [::] (tF L) i) j)]) n ++ mkseq (fun j => [:: at_place (nth [::] (tG L) i) j]) p
     | i <- iota 0 m].
 
-(** The places of the diagonal that are not zero. U P V is diagonal, U and V have inverses, and the diagonal has n + r entries that are not
-    zero, with the product c g, g being monic. *)
+(** U T V is diagonal, and U and V have inverses; the places of the diagonal that are not zero. *)
+Definition is_diagonalized (a b : nat) (T : seq (seq (seq (numeral R)))) (d : seq (seq (numeral R)))
+    (U U' V V' : seq (seq (seq (numeral R)))) : bool :=
+  let P := polynomials R in
+  [&& @formed P a a U, @formed P a a U', @formed P b b V & @formed P b b V']
+  && [&& @equal_tables P a a (@table_product P U U') (diagonal_table a a (nseq a [:: one R])),
+      @equal_tables P b b (@table_product P V V') (diagonal_table b b (nseq b [:: one R]))
+    & @equal_tables P a b (@table_product P (@table_product P U T) V) (diagonal_table a b d)].
 Definition nonzero_places (a b : nat) (d : seq (seq (numeral R))) : seq nat := [seq i <- iota 0 (minn a b) | ~~ blank (nth [::] d i)].
+
+(** The diagonal form of the pencil has n + r entries that are not zero, with the product c g, g being monic. *)
 Definition has_finite_zeros n m p r (L : listing R) (g : seq (numeral R)) (c : numeral R) (d : seq (seq (numeral R)))
     (U U' V V' : seq (seq (seq (numeral R)))) : bool :=
-  let P := polynomials R in let a := (n + m)%N in let b := (n + p)%N in let places := nonzero_places a b d in
-  [&& @formed P a a U, @formed P a a U', @formed P b b V, @formed P b b V' & all (fun i => has (@invertible R) (nth [::] d i)) places]
-  && [&& @equal_tables P a a (@table_product P U U') (diagonal_table a a (nseq a [:: one R])),
-      @equal_tables P b b (@table_product P V V') (diagonal_table b b (nseq b [:: one R])),
-      @equal_tables P a b (@table_product P (@table_product P U (pencil_rows n m p L)) V) (diagonal_table a b d),
-      size places == (n + r)%N, invertible c, is_one (last (zero R) g)
-      & blank (sum (multiple c g) (multiple (minus (zero R) (one R)) (foldr (@convolved R) [:: one R] [seq nth [::] d i | i <- places])))].
+  let places := nonzero_places (n + m) (n + p) d in
+  [&& is_diagonalized (n + m) (n + p) (pencil_rows n m p L) d U U' V V', all (fun i => has (@invertible R) (nth [::] d i)) places,
+    size places == (n + r)%N, invertible c & is_one (last (zero R) g)]
+  && blank (sum (multiple c g) (multiple (minus (zero R) (one R)) (foldr (@convolved R) [:: one R] [seq nth [::] d i | i <- places]))).
+
+(** The pencil at infinity, [1 - q A, C; -q F, G]; the place of the first coefficient that is not zero. In the diagonal form of that pencil
+    these places, ascending, are n zeros and the orders. *)
+Definition infinity_rows n m p (L : listing R) : seq (seq (seq (numeral R))) :=
+  [seq mkseq (fun j => [:: if j == i then one R else zero R; minus (zero R) (at_place (nth [::] (tA L) i) j)]) n
+    ++ mkseq (fun j => [:: at_place (nth [::] (tC L) i) j]) p | i <- iota 0 n]
+  ++ [seq mkseq (fun j => [:: zero R; minus (zero R) (at_place (nth [::] (tF L) i) j)]) n
+    ++ mkseq (fun j => [:: at_place (nth [::] (tG L) i) j]) p | i <- iota 0 m].
+Definition valuation (u : seq (numeral R)) : nat := find (fun x => ~~ vanishes x) u.
+Definition has_infinite_zeros n m p (orders : seq nat) (L : listing R) (d : seq (seq (numeral R)))
+    (U U' V V' : seq (seq (seq (numeral R)))) : bool :=
+  let places := nonzero_places (n + m) (n + p) d in
+  [&& is_diagonalized (n + m) (n + p) (infinity_rows n m p L) d U U' V V',
+    all (fun i => invertible (at_place (nth [::] d i) (valuation (nth [::] d i)))) places
+    & sort leq [seq valuation (nth [::] d i) | i <- places] == nseq n 0%N ++ orders].
 End PolynomialChecks.
