@@ -46,7 +46,8 @@ class Sharper:
 
 @dataclass(frozen=True)
 class Bound:
-    """`text` is an expression of the language. `systems` of the box attain it, of which `first` comes first; `known` names like statements.
+    """`text` is an expression of the language. `systems` of the box attain it, of which `first` comes first; where none does, which only
+    the claim's own bound allows, `first` lies outside the box. `known` names like statements.
 
     The first of `sharper` has the next constant, and `first` refutes it; the others have one coefficient that is one less, or more.
     """
@@ -65,7 +66,8 @@ class Bound:
     def sheet(self, name: str) -> Iterator[tuple[str, str]]:
         """These pairs say it, below its `name`."""
         yield name, self.text
-        yield "  attained", f"by {counted(self.systems, 'system')} of the box, first by {self.first}"
+        inside = f"by {counted(self.systems, 'system')} of the box, first by {self.first}"
+        yield "  attained", inside if self.systems else f"by no system of the box, but outside it by {self.first}"
         for k, one in enumerate(self.sharper):
             yield "" if k else "  sharper", one.words
         for k, said in enumerate(self.known):

@@ -183,8 +183,6 @@ def _own(claim: Claim, table: Table, target: Node, other: Node, side: str, stric
     if isinf(largest):
         return None, refuting
     attained: NDArray[np.bool_] = np.array([gap == largest for gap in gaps], dtype=bool)
-    if not (attained & _in_box(table)).any():
-        return None, refuting
     whole = linear(other)
     constant = whole.constant + sign * int(largest)
     before = f"{target.text} {SIGNS[side]} "
@@ -198,7 +196,7 @@ def _bounds(claim: Claim, table: Table, target: Node, columns: _Columns, kept: S
     sign = 1 if side == ABOVE else -1
     targets = _targets(table)
     before = f"{target.text} {SIGNS[side]} "
-    natural = (columns.values >= 0).all(axis=0)
+    natural: NDArray[np.bool_] = np.all(columns.values >= 0, axis=0)
     for one in kept:
         sharper = [(Form(one.form.terms), one.constant - sign)]
         for k, term in enumerate(one.form.terms):
