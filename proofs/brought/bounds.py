@@ -25,6 +25,7 @@ from itertools import combinations, product
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.sheets import counted
 from ..language.linear import words
 from ..quantities.elimination import Integers
 
@@ -89,8 +90,8 @@ class Grammar:
         """Return the grammar in words."""
         op = "max" if side == ABOVE else "min"
         more = f", or {op} of two of them" + (" and one more" if self.terms > 1 else "")
-        whole = f"sums of at most {self.terms} quantities with coefficients from -{self.largest} to {self.largest}{more}"
-        return f"{whole}, and a constant from -{self.constant} to {self.constant}"
+        sums = f"sums of at most {counted(self.terms, 'quantity', 'quantities')} with coefficients from -{self.largest} to {self.largest}"
+        return f"{sums}{more}, and " + (f"a constant from -{self.constant} to {self.constant}" if self.constant else "no constant")
 
 
 @dataclass(frozen=True)

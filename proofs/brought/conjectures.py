@@ -85,17 +85,20 @@ class Bound:
 
 @dataclass(frozen=True)
 class Evidence(Tried):
-    """Direct sums of two systems of the box were looked at, too; `rows` is the number of different values that were met."""
+    """Direct sums of two systems of the box and drawn systems were looked at, too; `rows` counts the different values that were met."""
 
     sums: int
     sums_met: int
+    drawn: int
+    drawn_met: int
     rows: int
 
     @property
     def words(self) -> str:
         """This says it in a sentence."""
         sums = f"{self.sums} direct sums of systems of the box, {self.sums_met} meet them"
-        return f"{super().words}; {sums}; together {counted(self.rows, 'set')} of values"
+        drawn = f"{self.drawn} drawn systems with up to 6 states, {self.drawn_met} meet them"
+        return f"{super().words}; {sums}; {drawn}; together {counted(self.rows, 'set')} of values"
 
     def to_json(self) -> dict[str, Any]:
         """The result is "tried" in the JSON answer."""
@@ -206,7 +209,7 @@ class Sharpened(Shown):
         if not self.tried.rows:
             return f"{self.id}{over}: no system that was tried meets the hypotheses"
         if self.own is None:
-            return f"{self.id}{over}: no constant beside it makes the claim a bound"
+            return f"{self.id}{over}: no constant beside it makes the claim a bound that is attained"
         return f"{self.id}{over}: {self.own.text} is not refuted, and attained"
 
     @property

@@ -66,13 +66,14 @@ def conjecture(
 ) -> Conjectures:
     """Seek the sharpest bounds on a quantity of systems x(k+1) = A x + F v, r = C x + G v by other quantities, under hypotheses.
 
-    `target`, `hypotheses` and `by` are expressions of the language of `docs/your-claims.md`; without `by` all integer quantities and the
-    ranks of A, F, C, G are used. A bound is a sum of at most `terms` of them with coefficients from -`largest` to `largest`, one of which
-    may be the larger (below: the smaller) of two, and a constant from -`constant` to `constant`. What is answered is refuted by no system
-    of the box, no known one and no direct sum of two that stand for others, and attained by a system of the box; none is implied by the
-    others, and wherever a bound of this form is attained in the box, one that is answered is. The next sharper ones come with the smallest
-    system that refutes them, and its certificates. None of this is a proof. `field`, `box`, `most`, `jobs` and `on_progress` are those of
-    `claim`. Source: [F75], [VD79] for the ranks that the quantities are found by.
+    `target` is an expression of the language of `docs/your-claims.md`, `hypotheses` and `by` are lists of such; without `by` all integer
+    quantities and the ranks of A (n x n), F (n x m), C (p x n), G (p x m) are used. A bound is a sum of at most `terms` of them with
+    coefficients from -`largest` to `largest`, one of which may be the larger (below: the smaller) of two, and a constant from -`constant`
+    to `constant`. What is answered is refuted by no system of the box, no known one, no direct sum of two that stand for others and none
+    of those that are drawn, and attained by a system of the box; none is implied by the others, and wherever a bound of this form is
+    attained in the box, one that is answered is, forms that equal the target everywhere, which are told apart, left aside. The next
+    sharper ones come with the smallest system that refutes them, and its certificates. None of this is a proof. `field`, `box`, `most`,
+    `jobs` and `on_progress` are those of `claim`. Source: [F75], [VD79] for the ranks that the quantities are found by.
 
     Raises InvalidInput for what is no expression, for an empty box, where the target is infinite or an expression has no value on a
     system, which is named, and for numbers out of range.
@@ -92,7 +93,7 @@ def conjecture(
     )
     given: dict[str, Any] = {"conclusion": f"({node.text}) == 0", "hypotheses": list(hypotheses), "fields": [field]}
     claim = make_claim("conjecture", given | ({} if box is None else {"box": box}))
-    columns = [_integer(one, f"by[{k}]") for k, one in enumerate(names)]
+    columns = list({one.text: one for one in (_integer(text, f"by[{k}]") for k, text in enumerate(names))}.values())
     table = _table(claim, field, [node, *columns], most, jobs, on_progress or silent)
     _must_be_finite(table, node, "target")
     finite = _columns(table, [_named(one) for one in columns], 1)
@@ -285,12 +286,16 @@ def _integer(text: object, where: str) -> Node:
 def _listed(by: object) -> list[str]:
     if isinstance(by, str) or not isinstance(by, Sequence) or not 1 <= len(by) <= MOST_COLUMNS:
         raise InvalidInput(f"by: got {shorten(by)}, expected a list of 1 to {MOST_COLUMNS} expressions")
-    return list(dict.fromkeys(by))
+    return list(by)
 
 
 def _named(node: Node) -> str:
     """Return the text of a column, which stands in a sum."""
-    return node.text if node.op in ("quantity", "windowed", "item", "abs", "min", "max", "sum", "len", *OF_A_MATRIX) else f"({node.text})"
+    return (
+        node.text
+        if node.op in ("constant", "quantity", "windowed", "item", "abs", "min", "max", "sum", "len", *OF_A_MATRIX)
+        else f"({node.text})"
+    )
 
 
 def _number(value: object, name: str, least: int, most: int) -> int:

@@ -2,10 +2,11 @@
 
     Row          the values, the first system of the box that has them, and how many have them, in the box and among the known systems
     Table        the rows, the first systems in the order of the box, and how much was gone through
-    tabulate     the table of expressions on a box, on the known systems and on direct sums, under hypotheses
+    tabulate     the table of expressions on a box, on known systems, direct sums and drawn systems, under hypotheses
 
 The direct sums are those of two systems of the table: most numbers of a direct sum are sums or maxima of those of its parts, so that they
-reach beyond the box, and what is a bound only because the box ends falls. Whether an inequality between these integers fails somewhere is
+reach beyond the box, and what is a bound only because the box ends falls. So do systems of up to six states that are drawn from a seed,
+with few entries that are not 0. Whether an inequality between these integers fails somewhere is
 seen from the rows, and so is the first system of the box on which it fails: tens of millions of systems have some hundreds of rows.
 """
 
@@ -37,14 +38,20 @@ from .trying import WORTH_SHARING, Undefined, must_have_a_value
 
 Place = tuple[int, int, int]  # the number of the sizes in the order of the box, of the stretch, of the system
 OUTSIDE = 10**9  # sizes of systems outside the box are numbered from here on, so that they come after it
-MOST_SUMS = 4_000  # they take some ten seconds
+MOST_SUMS, MOST_MET, DRAWS, AT_A_TIME, SEED = (
+    2_000,
+    3_000,
+    80,
+    100,
+    1,
+)  # sums, and draws until so many meet the hypotheses: some ten seconds
 
 
 @dataclass
 class Row:
     """`systems` of the box have these values, of which `system`, at `place`, is the first; so have `others` outside it.
 
-    Where no system of the box has them, `system` is the smallest known one that has, else a direct sum.
+    Where no system of the box has them, `system` is the smallest known one that has, else a direct sum or a drawn one.
     """
 
     values: Values
@@ -74,6 +81,8 @@ class Table:
     adversary_met: int = 0
     sums: int = 0
     sums_met: int = 0
+    drawn: int = 0
+    drawn_met: int = 0
 
     @property
     def met(self) -> int:
@@ -135,6 +144,8 @@ def tabulate(box: Box, hypotheses: Sequence[Node], columns: Sequence[Node], *, m
     _add_known(table, rows, hypotheses, columns, box.prime)
     progress("looking at direct sums", 0, 0)
     _add_sums(table, rows, hypotheses, columns)
+    progress("looking at drawn systems", 0, 0)
+    _add_drawn(table, rows, hypotheses, columns)
     table.rows = sorted(rows.values(), key=lambda row: row.place)
     return table
 
@@ -227,16 +238,39 @@ def _add_sums(table: Table, rows: dict[Values, Row], hypotheses: Sequence[Node],
     for number, (_, group) in enumerate(groupby(pairs, key=lambda pair: _sizes_of_sum(*pair))):
         listed = list(group)
         batch = _direct_sums(listed, table.box.prime)
-        part, each = _Part(), Stretch(batch, np.arange(len(batch)), np.ones(len(batch), dtype=np.int64))
-        try:
-            _add_stretch(part, (OUTSIDE + 1, number), each, hypotheses, columns)
-        except UndefinedAt as error:
-            raise InvalidInput(f"on {batch.system(error.index)}, {error}") from None
         table.sums += len(listed)
-        for row in part.rows.values():
-            row.systems, row.others = 0, row.systems
-            table.sums_met += row.others
-            _merge(rows, row)
+        table.sums_met += _add_batch(batch, (OUTSIDE + 1, number), rows, hypotheses, columns)
+
+
+def _add_drawn(table: Table, rows: dict[Values, Row], hypotheses: Sequence[Node], columns: Sequence[Node]) -> None:
+    """Add systems with up to 6 states, 3 faults and 4 outputs, whose entries are -1, 0, 1 (over GF(2): 0, 1), many of them 0."""
+    rng = np.random.default_rng(SEED)
+    for number in range(DRAWS):
+        if table.drawn_met >= MOST_MET:
+            break
+        n, m, p = (int(rng.integers(1, 1 + most)) for most in (6, 3, 4))
+        full = rng.choice((0.1, 0.2, 0.35, 0.6), size=4) * (1, 1, 1, rng.choice((0, 0.5, 1)))
+        signs = (1,) if table.box.prime == 2 else (-1, 1)
+        A, F, C, G = (
+            np.where(rng.random((AT_A_TIME, *shape)) < share, rng.choice(signs, (AT_A_TIME, *shape)), 0).astype(np.int64)
+            for shape, share in zip(((n, n), (n, m), (p, n), (p, m)), full, strict=True)
+        )
+        table.drawn += AT_A_TIME
+        table.drawn_met += _add_batch(Batch(A, F, C, G, table.box.prime), (OUTSIDE + 2, number), rows, hypotheses, columns)
+
+
+def _add_batch(batch: Batch, at: tuple[int, int], rows: dict[Values, Row], hypotheses: Sequence[Node], columns: Sequence[Node]) -> int:
+    """Add systems outside the box, and return how many of them meet the hypotheses."""
+    part, each = _Part(), Stretch(batch, np.arange(len(batch)), np.ones(len(batch), dtype=np.int64))
+    try:
+        _add_stretch(part, at, each, hypotheses, columns)
+    except UndefinedAt as error:
+        raise InvalidInput(f"on {batch.system(error.index)}, {error}") from None
+    met = sum(row.systems for row in part.rows.values())
+    for row in part.rows.values():
+        row.systems, row.others = 0, row.systems
+        _merge(rows, row)
+    return met
 
 
 def _direct_sums(pairs: Sequence[tuple[ResidualSystem, ResidualSystem]], prime: int | None) -> Batch:

@@ -1,4 +1,4 @@
-"""`faultspace conjecture` and `faultspace claim --sharpen` as they are typed: bounds, JSON, certificates, the page's examples, bad options."""
+"""`faultspace conjecture` and `faultspace claim --sharpen` as they are typed: bounds, JSON, certificates, the page, bad options."""
 
 from __future__ import annotations
 
@@ -44,7 +44,8 @@ def test_the_json_is_alone_on_standard_output(capsys: pytest.CaptureFixture[str]
     assert main(["conjecture", "delay_known", *options, *SMALL, "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
     assert [one["bound"] for one in answer["above"]] == ["delay_known <= infinite_zeros"]
-    assert answer["hypotheses"] == ["left_invertible"] and "at most 1 quantities" in answer["grammar"]["above"]
+    assert answer["hypotheses"] == ["left_invertible"] and answer["grammar"]["above"].startswith("sums of at most 1 quantity with")
+    assert answer["grammar"]["below"].endswith("and no constant")
     assert answer["above"][0]["sharper"][0]["smallest"]["in_box"] is True
 
 
