@@ -6,8 +6,8 @@
 
 The direct sums are those of two systems of the table: most numbers of a direct sum are sums or maxima of those of its parts, so that they
 reach beyond the box, and what is a bound only because the box ends falls. So do systems of up to six states that are drawn from a seed,
-with few entries that are not 0. Whether an inequality between these integers fails somewhere is
-seen from the rows, and so is the first system of the box on which it fails: tens of millions of systems have some hundreds of rows.
+with few entries that are not 0. Whether an inequality between these integers fails somewhere is seen from the rows, and so is the first
+system of the box on which it fails: tens of millions of systems have some hundreds of rows.
 """
 
 from __future__ import annotations

@@ -38,6 +38,19 @@ SMALL = {"total": 3}
 COLUMNS = ("lag", "zeta", "delay_known", "n_z", "rank(G)")
 
 
+@pytest.fixture(autouse=True)
+def few_outside(monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> None:
+    """Most tests have enough in fewer systems outside the box, which take most of the time."""
+    if "all_outside" not in request.fixturenames:
+        monkeypatch.setattr(tables, "MOST_SUMS", 300)
+        monkeypatch.setattr(tables, "MOST_MET", 100)
+
+
+@pytest.fixture
+def all_outside() -> None:
+    """A test that asks for it has as many as users have."""
+
+
 def sharpened(conclusion: str, *hypotheses: str, box: dict[str, Any] | None = None) -> Sharpened:
     given = {"conclusion": conclusion, "hypotheses": list(hypotheses), "box": {"total": 4} if box is None else box}
     return sharpen(make_claim("x", given))[0]
@@ -101,7 +114,7 @@ def test_what_is_outside_the_box_is_as_exact_functions_say() -> None:
         assert tuple(evaluate(node, exactly) for node in nodes) == row.values and evaluate(read("left_invertible"), exactly)
     listed = {one.subject.system for one in known_systems(None)}
     assert sum(row.others for row in table.rows) == table.sums_met + table.drawn_met + table.corpus_met + table.adversary_met
-    assert table.drawn_met > 500
+    assert table.drawn_met >= 100
     assert any(row.system not in listed for row in outside)
 
 
@@ -335,7 +348,7 @@ def test_the_least_constant(conclusion: str, hypotheses: list[str], own: str, re
     assert (claimed(conclusion, hypotheses, SMALL).verdict == Answered.REFUTED) == refuted
 
 
-def test_known_results_are_found_again() -> None:
+def test_known_results_are_found_again(all_outside: None) -> None:
     """The lag from the solutions of problem (11), the delay from the infinite zeros, and that knowing x(0) helps; no false one comes."""
     lag = fs.conjecture("lag", by=["n", "normal_rank", "n_z"], box={"total": 4})
     assert [one.text for one in lag.above] == ["lag <= n + normal_rank - n_z"]
@@ -348,7 +361,7 @@ def test_known_results_are_found_again() -> None:
     assert zeros.equal == ("n_z == normal_rank + weakly_unobservable_dimension + infinite_zeros",)
 
 
-def test_what_is_a_bound_in_the_box_alone_falls() -> None:
+def test_what_is_a_bound_in_the_box_alone_falls(all_outside: None) -> None:
     """This one has no counterexample in the default box, on the known systems or on direct sums; a drawn system refutes it."""
     by = ["normal_rank", "observability_index", "rank(G)"]
     found = fs.conjecture("lag", by=by, box={"total": 4})
