@@ -38,13 +38,8 @@ from .trying import WORTH_SHARING, Undefined, must_have_a_value
 
 Place = tuple[int, int, int]  # the number of the sizes in the order of the box, of the stretch, of the system
 OUTSIDE = 10**9  # sizes of systems outside the box are numbered from here on, so that they come after it
-MOST_SUMS, MOST_MET, DRAWS, AT_A_TIME, SEED = (
-    2_000,
-    3_000,
-    80,
-    100,
-    1,
-)  # sums, and draws until so many meet the hypotheses: some ten seconds
+# Sums; and draws of so many systems each, until so many meet the hypotheses: some twenty seconds where there are twenty columns.
+MOST_SUMS, MOST_MET, DRAWS, AT_A_TIME, SEED = 2_000, 3_000, 80, 100, 1
 
 
 @dataclass
