@@ -12,6 +12,7 @@ from .numeric.monitor.monitoring import Monitor as Monitor
 from .numeric.pipeline import identify as identify
 from .numeric.study.studies import monte_carlo as monte_carlo
 from .proofs.brought.claiming import claim as claim
+from .proofs.brought.conjecturing import conjecture as conjecture
 from .proofs.checking import check as check
 from .proofs.trust.certifying import certify as certify
 from .proofs.verification import verify as verify

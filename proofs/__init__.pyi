@@ -1,6 +1,8 @@
 from .brought.answers import ClaimAnswer as ClaimAnswer
 from .brought.answers import ClaimAnswers as ClaimAnswers
 from .brought.claiming import claim as claim
+from .brought.conjectures import Conjectures as Conjectures
+from .brought.conjecturing import conjecture as conjecture
 from .checking import Checked as Checked
 from .checking import CheckedFile as CheckedFile
 from .checking import check as check

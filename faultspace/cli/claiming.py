@@ -1,6 +1,7 @@
 """`faultspace claim`: claims of your own, decided; or, with --explain, what each part of them is on a system.
 
 run          the command's body
+sharpen      its body with --sharpen
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from ..proofs.brought.claim_files import read_claims
 from ..proofs.brought.claiming import MOST, decide_claims, explain
 from ..proofs.brought.claims import Answered, Claim, nearest
 from ..proofs.trust.structure_certificates import sha256
+from .conjecturing import run_sharpen
 from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, NOT_AS_EXPECTED
 from .reading_files import prepare_folder, read_system, read_text, write_json
@@ -29,7 +31,7 @@ STYLES = {Answered.REFUTED: "red", Answered.NOT_REFUTED: "green", Answered.VACUO
 def run(name: str, *, only: list[str], ablation: bool, most: int | None, jobs: int, on: str | None, out: Path | None, as_json: bool) -> int:
     """Decide the claims of a file, or explain them on the system `on`. The exit code is 1 where a verdict is not the expected one."""
     with in_file(name):
-        claims = _chosen(read_claims(read_text(name)), only)
+        claims = _chosen(read_claims(read_text(name)), only, "--claim")
     if on is not None:
         return _explain(claims, on, as_json=as_json)
     if out is not None:
@@ -51,11 +53,18 @@ def run(name: str, *, only: list[str], ablation: bool, most: int | None, jobs: i
     return ANSWERED if found.as_expected else NOT_AS_EXPECTED
 
 
-def _chosen(claims: list[Claim], only: list[str]) -> list[Claim]:
+def sharpen(name: str, ids: list[str], *, most: int | None, jobs: int, out: Path | None, as_json: bool) -> int:
+    """Seek bounds in the place of those that these claims of a file state."""
+    with in_file(name):
+        claims = _chosen(read_claims(read_text(name)), ids, "--sharpen")
+    return run_sharpen(name, claims, most=most, jobs=jobs, out=out, as_json=as_json)
+
+
+def _chosen(claims: list[Claim], only: list[str], option: str) -> list[Claim]:
     names = tuple(one.id for one in claims)
     for id in only:
         if id not in names:
-            raise InvalidInput(f"--claim: got {id}, which is no claim of the file; {nearest(id, names)}")
+            raise InvalidInput(f"{option}: got {id}, which is no claim of the file; {nearest(id, names)}")
     return [one for one in claims if not only or one.id in only]
 
 

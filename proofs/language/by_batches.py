@@ -1,6 +1,7 @@
 """The value of an expression on many small systems at once: those of which all that it reads is equal are decided together.
 
     true_of       which systems of a batch an expression is true of
+    values_of     what several expressions are on the systems of a batch, and where
     Table         what has been decided: the numbers that were read -> the answer
 
 An expression is tried on what is known of a system, which at first is its sizes. It asks for a family of ranks or for a matrix by raising
@@ -10,7 +11,7 @@ cannot be found in batches (`OneByOne`: a matrix whose size depends on the syste
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -22,10 +23,11 @@ from ..quantities.batches import Batch, Chosen, characteristic
 from ..quantities.elimination import Integers, Overflow, leading_ranks
 from ..quantities.ranks import Ranks, Wanted
 from ..quantities.registry import Subject, quantities
-from .evaluating import Bound, Exactly, check_shapes, evaluate, exponent, side
+from .evaluating import Bound, Exactly, Knows, check_shapes, evaluate, exponent, side
 from .nodes import Node, Undefined, variables
 
 Flags = NDArray[np.bool_]
+Values = tuple[Any, ...]
 
 
 class OneByOne(Exception):
@@ -41,9 +43,13 @@ class Unanswered:
 
 @dataclass
 class Table:
-    """The answers of one expression for systems of the same sizes, kept from batch to batch."""
+    """The answers of one expression, or of several, for systems of the same sizes, kept from batch to batch."""
 
-    answers: dict[object, bool | Unanswered | Wanted] = field(default_factory=dict)
+    answers: dict[object, bool | Values | Unanswered | Wanted] = field(default_factory=dict)
+
+
+_Ask = Callable[[Knows], Any]
+_Note = Callable[[Any, Chosen], None]
 
 
 class UndefinedAt(Undefined):
@@ -84,43 +90,70 @@ class _Row:
 def true_of(node: Node, batch: Batch, rows: Chosen, table: Table) -> Flags:
     """Return of which systems of these rows the expression is true. Raises UndefinedAt where it has no value on one of them."""
     found = np.zeros(len(rows), dtype=bool)
-    try:
-        _decide(node, batch, rows, np.arange(len(rows)), (), table, found)
-    except (OneByOne, Overflow):
-        for place, index in enumerate(rows):
-            try:
-                found[place] = evaluate(node, Exactly({"": Subject(batch.system(int(index)))}))
-            except Undefined as error:
-                raise UndefinedAt(str(error), int(index)) from None
+
+    def note(answer: Any, places: Chosen) -> None:
+        found[places] = answer
+
+    _each(lambda knows: bool(evaluate(node, knows)), batch, rows, table, note)
     return found
 
 
-def _decide(node: Node, batch: Batch, rows: Chosen, places: Chosen, keys: tuple[Any, ...], table: Table, found: Flags) -> None:
-    """Fill in the answers at these places of `rows`, of which the numbers of `keys` are known."""
+def values_of(nodes: Sequence[Node], batch: Batch, rows: Chosen, table: Table) -> list[tuple[Values, Chosen]]:
+    """Return the values that the expressions have on systems of these rows, with the rows; the same values may come more than once.
+
+    Raises UndefinedAt where one has no value on a system.
+    """
+    found: list[tuple[Values, Chosen]] = []
+    ask = lambda knows: tuple(evaluate(node, knows) for node in nodes)  # noqa: E731
+    _each(ask, batch, rows, table, lambda answer, places: found.append((answer, rows[places])))
+    return found
+
+
+def _each(ask: _Ask, batch: Batch, rows: Chosen, table: Table, note: _Note) -> None:
+    """Ask about the systems of these rows, and note what is answered for which places of `rows`."""
+    noted: list[tuple[Any, Chosen]] = []
+    try:
+        _decide(ask, batch, rows, np.arange(len(rows)), (), table, noted)
+    except (OneByOne, Overflow):
+        noted = []
+        for place, index in enumerate(rows):
+            try:
+                noted.append((ask(Exactly({"": Subject(batch.system(int(index)))})), np.array([place])))
+            except Undefined as error:
+                raise UndefinedAt(str(error), int(index)) from None
+    for answer, places in noted:
+        note(answer, places)
+
+
+def _decide(
+    ask: _Ask, batch: Batch, rows: Chosen, places: Chosen, keys: tuple[Any, ...], table: Table, noted: list[tuple[Any, Chosen]]
+) -> None:
+    """Note the answers at these places of `rows`, of which the numbers of `keys` are known."""
     known = [batch.column(key, rows[places], _finder(key)) for key in keys]
     numbers = np.concatenate(known, axis=1) if known else np.zeros((len(places), 0), dtype=np.int64)
     distinct, which = _distinct(numbers)
     widths = np.cumsum([one.shape[1] for one in known])[:-1]
     wanting: dict[Any, list[int]] = {}
+    groups = np.split(places[np.argsort(which, kind="stable")], np.cumsum(np.bincount(which, minlength=len(distinct)))[:-1])
     for i, row in enumerate(distinct):
         name = (keys, row.tobytes())
         if name not in table.answers:
             parts = dict(zip(keys, (tuple(map(int, part)) for part in np.split(row, widths)), strict=True)) if known else {}
-            table.answers[name] = _answer(node, Ranks(batch.n, batch.m, batch.p, parts))
+            table.answers[name] = _answer(ask, Ranks(batch.n, batch.m, batch.p, parts))
         answer = table.answers[name]
         if isinstance(answer, Wanted):
             wanting.setdefault(answer.key, []).append(i)
         elif isinstance(answer, Unanswered):
-            raise UndefinedAt(answer.message, int(rows[places][np.flatnonzero(which == i)[0]]))
-        elif answer:
-            found[places[which == i]] = True
-    for key, groups in wanting.items():
-        _decide(node, batch, rows, places[np.isin(which, groups)], (*keys, key), table, found)
+            raise UndefinedAt(answer.message, int(rows[groups[i][0]]))
+        else:
+            noted.append((answer, groups[i]))
+    for key, numbered in wanting.items():
+        _decide(ask, batch, rows, np.sort(np.concatenate([groups[i] for i in numbered])), (*keys, key), table, noted)
 
 
-def _answer(node: Node, ranks: Ranks) -> bool | Unanswered | Wanted:
+def _answer(ask: _Ask, ranks: Ranks) -> Any:
     try:
-        return bool(evaluate(node, _Row(ranks)))
+        return ask(_Row(ranks))
     except Wanted as wanted:
         return wanted
     except Undefined as error:

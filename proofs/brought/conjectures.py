@@ -1,0 +1,254 @@
+"""What is answered where bounds are sought, for people, programs and the checker.
+
+Sharper        a bound that says more than another, with the smallest system that refutes it
+Bound          a bound that nothing that was tried refutes, where it is attained, and the next sharper ones
+Evidence       what was gone through
+Conjectures    bounds on a quantity by others; what `fs.conjecture` returns
+Sharpened      bounds in the place of a claim's
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ...base.sheets import Shown, counted
+from ...exact.system.systems import ResidualSystem
+from ..trust.structure_certificates import Certificate, sha256
+from .answers import Counterexample, Tried
+
+
+@dataclass(frozen=True)
+class Sharper:
+    """`counterexample` is None where nothing that was tried refutes `text` either, and it is attained no more often than the bound."""
+
+    text: str
+    counterexample: Counterexample | None
+
+    @property
+    def words(self) -> str:
+        """This says what becomes of it."""
+        found = self.counterexample
+        if found is None:
+            return f"{self.text}: not refuted either"
+        return f"{self.text}: refuted by {found.system}" + ("" if found.smallest else " (outside the box)")
+
+    def to_json(self) -> dict[str, Any]:
+        """The result is an entry of "sharper" in the JSON answer."""
+        found = self.counterexample
+        return {
+            "bound": self.text,
+            "smallest": None if found is None else found.to_json(),
+            "certificates": [] if found is None else [sha256(one) for one in found.certificates],
+        }
+
+
+@dataclass(frozen=True)
+class Bound:
+    """`text` is an expression of the language. `systems` of the box attain it, of which `first` comes first; where none does, which only
+    the claim's own bound allows, `first` lies outside the box. `known` names like statements.
+
+    The first of `sharper` has the next constant, and `first` refutes it; the others have one coefficient that is one less, or more.
+    """
+
+    text: str
+    first: ResidualSystem
+    systems: int
+    sharper: tuple[Sharper, ...]
+    known: tuple[str, ...]
+
+    @property
+    def certificates(self) -> tuple[Certificate, ...]:
+        """These bear what the counterexamples to the sharper bounds are."""
+        return tuple(one for sharper in self.sharper if sharper.counterexample for one in sharper.counterexample.certificates)
+
+    def sheet(self, name: str) -> Iterator[tuple[str, str]]:
+        """These pairs say it, below its `name`."""
+        yield name, self.text
+        inside = f"by {counted(self.systems, 'system')} of the box, first by {self.first}"
+        yield "  attained", inside if self.systems else f"by no system of the box, but outside it by {self.first}"
+        for k, one in enumerate(self.sharper):
+            yield "" if k else "  sharper", one.words
+        for k, said in enumerate(self.known):
+            yield "" if k else "  known", said
+
+    def to_json(self) -> dict[str, Any]:
+        """The result is an entry of "above" or "below" in the JSON answer."""
+        return {
+            "bound": self.text,
+            "attained": {"system": self.first.to_json(), "systems": self.systems},
+            "sharper": [one.to_json() for one in self.sharper],
+            "known": list(self.known),
+        }
+
+
+@dataclass(frozen=True)
+class Evidence(Tried):
+    """Direct sums of two systems of the box and drawn systems were looked at, too; `rows` counts the different values that were met."""
+
+    sums: int
+    sums_met: int
+    drawn: int
+    drawn_met: int
+    rows: int
+
+    @property
+    def words(self) -> str:
+        """This says it in a sentence."""
+        sums = f"{self.sums} direct sums of systems of the box, {self.sums_met} meet them"
+        drawn = f"{self.drawn} drawn systems with up to 6 states, {self.drawn_met} meet them"
+        return f"{super().words}; {sums}; {drawn}; together {counted(self.rows, 'set')} of values"
+
+    def to_json(self) -> dict[str, Any]:
+        """The result is "tried" in the JSON answer."""
+        return {name: getattr(self, name) for name in self.__dataclass_fields__}
+
+
+@dataclass(frozen=True, repr=False)
+class Conjectures(Shown):
+    """Bounds above and below on a quantity by others, which nothing that was tried refutes and some system attains: no theorems.
+
+    `above` and `below` list them, each with `text`, a bound in the language, `first`, the first system of the box that attains it,
+    `systems`, how many of the box do, `sharper`, the next sharper bounds with the smallest system that refutes each, and `known`, the like
+    statements of the field and of the ledger; none is implied by the others. `equal` are sums that the target equals wherever it was
+    looked at. `by` are the quantities of the bounds; `left_out` those that are infinite on a system, which is named. `tried` counts what
+    was gone through. Source: [F75], [VD79] for the ranks that the quantities are found by. Raises nothing by itself.
+
+    >>> import faultspace as fs
+    >>> found = fs.conjecture("lag", by=["n", "zeta"], box={"total": 3})
+    >>> [one.text for one in found.above], str(found.above[0].first)
+    (['lag <= n - zeta'], 'A=[[-1]], F=[[-1]], C=[[-1]], G=[[-1]]')
+    """
+
+    target: str
+    field: str
+    hypotheses: tuple[str, ...]
+    by: tuple[str, ...]
+    left_out: Mapping[str, ResidualSystem]
+    above: tuple[Bound, ...]
+    below: tuple[Bound, ...]
+    equal: tuple[str, ...]
+    grammar: Mapping[str, str]
+    tried: Evidence
+    seconds: float
+
+    @property
+    def title(self) -> str:
+        """How many bounds there are, and on what."""
+        over = "" if self.field == "Q" else f" over {self.field}"
+        if not self.tried.rows:
+            return f"{self.target}{over}: no system that was tried meets the hypotheses"
+        bounds = f"{counted(len(self.above), 'bound')} above and {len(self.below)} below"
+        return f"{self.target}{over}: {bounds} that nothing that was tried refutes"
+
+    @property
+    def certificates(self) -> tuple[Certificate, ...]:
+        """These bear the counterexamples, each accepted by the checker."""
+        return tuple(one for bound in (*self.above, *self.below) for one in bound.certificates)
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """These pairs are all that was found out."""
+        for k, text in enumerate(self.hypotheses):
+            yield "" if k else "hypotheses", text
+        for k, text in enumerate(self.equal):
+            yield "" if k else "equal wherever it was tried", text
+        for k, bound in enumerate(self.above):
+            yield from bound.sheet(f"above {k + 1}")
+        for k, bound in enumerate(self.below):
+            yield from bound.sheet(f"below {k + 1}")
+        yield "bounds above that were sought", self.grammar["above"]
+        yield "bounds below that were sought", self.grammar["below"]
+        yield "by", ", ".join(self.by)
+        for name, system in self.left_out.items():
+            yield f"left out: {name}", f"inf on {system}"
+        yield "tried", self.tried.words
+        yield "seconds", f"{self.seconds:.1f}"
+
+    def to_json(self) -> dict[str, Any]:
+        """The result is what `faultspace conjecture --json` prints."""
+        return {
+            "target": self.target,
+            "field": self.field,
+            "hypotheses": list(self.hypotheses),
+            "by": list(self.by),
+            "left_out": [{"name": name, "system": system.to_json()} for name, system in self.left_out.items()],
+            "above": [one.to_json() for one in self.above],
+            "below": [one.to_json() for one in self.below],
+            "equal": list(self.equal),
+            "grammar": dict(self.grammar),
+            "tried": self.tried.to_json(),
+        }
+
+
+@dataclass(frozen=True, repr=False)
+class Sharpened(Shown):
+    """Bounds in the place of a claim's: `own` is the claim's with the least constant beside it that nothing that was tried refutes.
+
+    `words` are the bounds on the same quantity by what the claim's other side names, `others` those by all quantities, none implied by the
+    others of its list. `counterexample` refutes the claim itself, and is None where nothing does. `own` is None where no constant will do.
+    """
+
+    id: str
+    field: str
+    conclusion: str
+    hypotheses: tuple[str, ...]
+    counterexample: ResidualSystem | None
+    own: Bound | None
+    words: tuple[Bound, ...]
+    others: tuple[Bound, ...]
+    left_out: Mapping[str, ResidualSystem]
+    grammar: str
+    tried: Evidence
+    seconds: float
+
+    @property
+    def title(self) -> str:
+        """The bound in the place of the claim's."""
+        over = "" if self.field == "Q" else f" over {self.field}"
+        if not self.tried.rows:
+            return f"{self.id}{over}: no system that was tried meets the hypotheses"
+        if self.own is None:
+            return f"{self.id}{over}: no constant beside it makes the claim a bound that is attained"
+        return f"{self.id}{over}: {self.own.text} is not refuted, and attained"
+
+    @property
+    def certificates(self) -> tuple[Certificate, ...]:
+        """These bear the counterexamples, each accepted by the checker."""
+        listed = (*((self.own,) if self.own else ()), *self.words, *self.others)
+        return tuple(one for bound in listed for one in bound.certificates)
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """These pairs are all that was found out."""
+        yield "the claim", self.conclusion
+        for k, text in enumerate(self.hypotheses):
+            yield "" if k else "hypotheses", text
+        if self.tried.rows:
+            yield "it is", "not refuted" if self.counterexample is None else f"refuted by {self.counterexample}"
+        if self.own is not None:
+            yield from self.own.sheet("with the least constant")
+        for k, bound in enumerate(self.words):
+            yield from bound.sheet(f"in its words {k + 1}")
+        for k, bound in enumerate(self.others):
+            yield from bound.sheet(f"by all quantities {k + 1}")
+        yield "bounds that were sought", self.grammar
+        for name, system in self.left_out.items():
+            yield f"left out: {name}", f"inf on {system}"
+        yield "tried", self.tried.words
+        yield "seconds", f"{self.seconds:.1f}"
+
+    def to_json(self) -> dict[str, Any]:
+        """The result is an entry of "sharpened" in the JSON answer."""
+        return {
+            "id": self.id,
+            "field": self.field,
+            "conclusion": self.conclusion,
+            "hypotheses": list(self.hypotheses),
+            "counterexample": None if self.counterexample is None else self.counterexample.to_json(),
+            "own": None if self.own is None else self.own.to_json(),
+            "words": [one.to_json() for one in self.words],
+            "others": [one.to_json() for one in self.others],
+            "left_out": [{"name": name, "system": system.to_json()} for name, system in self.left_out.items()],
+            "grammar": self.grammar,
+            "tried": self.tried.to_json(),
+        }

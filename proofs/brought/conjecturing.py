@@ -1,0 +1,304 @@
+"""Bounds that nobody has claimed yet, and sharper ones than those that somebody has.
+
+conjecture        bounds on a quantity by others: what `fs.conjecture` is
+sharpen           bounds in the place of a claim's, over each of its fields
+default_columns   the quantities that bounds are sought by where none are named
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import isinf
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...base.errors import InvalidInput, shorten
+from ...base.progress import Progress, silent
+from ...base.threads import one_thread
+from ...exact.system.systems import ResidualSystem
+from ..language.evaluating import Asked
+from ..language.grammar import OF_A_MATRIX
+from ..language.linear import linear, words
+from ..language.nodes import Node
+from ..quantities.elimination import Integers
+from ..quantities.registry import Kind, quantities
+from .bounds import ABOVE, BELOW, Fit, Fitted, Form, Grammar, fit
+from .boxes import Box
+from .claims import Claim, expression, make_claim
+from .conjectures import Bound, Conjectures, Evidence, Sharpened, Sharper
+from .deciding import certified
+from .known_bounds import known_as
+from .tables import Row, Table, tabulate
+
+MOST = 10**9
+MOST_COLUMNS, MOST_TERMS, LARGEST_COEFFICIENT, LARGEST_CONSTANT, MOST_EQUAL = 40, 3, 3, 9, 5
+RANKS = ("rank(A)", "rank(F)", "rank(C)", "rank(G)")
+SIGNS = {ABOVE: "<=", BELOW: ">="}
+
+
+@dataclass(frozen=True)
+class _Columns:
+    """The columns of a table that are finite on all its rows: `values` (rows, columns), by name; `left_out` are the others."""
+
+    names: tuple[str, ...]
+    values: Integers
+    left_out: Mapping[str, ResidualSystem]
+
+
+@one_thread()
+def conjecture(
+    target: str,
+    *,
+    hypotheses: Sequence[str | Callable[[Asked], bool]] = (),
+    by: Sequence[str] | None = None,
+    field: str = "Q",
+    box: Mapping[str, Any] | None = None,
+    terms: int = Grammar.terms,
+    largest: int = Grammar.largest,
+    constant: int = Grammar.constant,
+    most: int = MOST,
+    jobs: int = 1,
+    on_progress: Progress | None = None,
+) -> Conjectures:
+    """Seek the sharpest bounds on a quantity of systems x(k+1) = A x + F v, r = C x + G v by other quantities, under hypotheses.
+
+    `target` is an expression of the language of `docs/your-claims.md`, `hypotheses` and `by` are lists of such; without `by` all integer
+    quantities and the ranks of A (n x n), F (n x m), C (p x n), G (p x m) are used. A bound is a sum of at most `terms` of them with
+    coefficients from -`largest` to `largest`, one of which may be the larger (below: the smaller) of two, and a constant from -`constant`
+    to `constant`. What is answered is refuted by no system of the box, no known one, no direct sum of two that stand for others and none
+    of those that are drawn, and attained by a system of the box; none is implied by the others, and wherever a bound of this form is
+    attained in the box, one that is answered is, forms that equal the target everywhere, which are told apart, left aside. The next
+    sharper ones come with the smallest system that refutes them, and its certificates. None of this is a proof. `field`, `box`, `most`,
+    `jobs` and `on_progress` are those of `claim`. Source: [F75], [VD79] for the ranks that the quantities are found by.
+
+    Raises InvalidInput for what is no expression, for an empty box, where the target is infinite or an expression has no value on a
+    system, which is named, and for numbers out of range.
+
+    >>> import faultspace as fs
+    >>> found = fs.conjecture("delay_known", hypotheses=["left_invertible"], by=["n", "rank(G)"], box={"total": 4})
+    >>> [one.text for one in found.above], found.above[0].sharper[0].text
+    (['delay_known <= n'], 'delay_known <= n - 1')
+    """
+    started = time.perf_counter()
+    node = _integer(target, "target")
+    names = default_columns(node) if by is None else _listed(by)
+    grammar = Grammar(
+        _number(terms, "terms", 1, MOST_TERMS),
+        _number(largest, "largest", 1, LARGEST_COEFFICIENT),
+        _number(constant, "constant", 0, LARGEST_CONSTANT),
+    )
+    given: dict[str, Any] = {"conclusion": f"({node.text}) == 0", "hypotheses": list(hypotheses), "fields": [field]}
+    claim = make_claim("conjecture", given | ({} if box is None else {"box": box}))
+    columns = list({one.text: one for one in (_integer(text, f"by[{k}]") for k, text in enumerate(names))}.values())
+    table = _table(claim, field, [node, *columns], most, jobs, on_progress or silent)
+    _must_be_finite(table, node, "target")
+    finite = _columns(table, [_named(one) for one in columns], 1)
+    bounds, equal = {}, []
+    for side in (ABOVE, BELOW):
+        found = _fit(table, finite, grammar, side)
+        bounds[side] = tuple(_bounds(claim, table, node, finite, found.kept, side))
+        least = min((one.cost for one in found.equal), default=0)
+        equal += [f"{node.text} == {one.form.words(finite.names, one.constant)}" for one in found.equal if one.cost == least]
+    return Conjectures(
+        target=node.text,
+        field=field,
+        hypotheses=tuple(one.label for one in claim.hypotheses),
+        by=finite.names,
+        left_out=finite.left_out,
+        above=bounds[ABOVE],
+        below=bounds[BELOW],
+        equal=tuple(dict.fromkeys(equal))[:MOST_EQUAL],
+        grammar={side: grammar.words(side) for side in (ABOVE, BELOW)},
+        tried=_evidence(table),
+        seconds=time.perf_counter() - started,
+    )
+
+
+def sharpen(claim: Claim, *, most: int = MOST, jobs: int = 1, progress: Progress = silent) -> list[Sharpened]:
+    """Return the bounds in the place of the claim's over each of its fields. Raises InvalidInput where it is no bound on an integer."""
+    return [_sharpened(claim, field, most, jobs, progress) for field in claim.boxes]
+
+
+def default_columns(target: Node) -> list[str]:
+    """Return all integer quantities and the ranks of A, F, C, G but for what the target is a sum of; sizes stay."""
+    inside = set(linear(target).multiples)
+    listed = [one.name for one in quantities().values() if one.kind == Kind.INTEGER and not one.windowed]
+    return [name for name in (*sorted(listed), *RANKS) if name not in inside or (name in ("n", "m", "p") and name != target.text)]
+
+
+def _sharpened(claim: Claim, field: str, most: int, jobs: int, progress: Progress) -> Sharpened:
+    started = time.perf_counter()
+    target, side, other, strict = _bound_of(claim)
+    own = [name for name in linear(other).multiples if name != target.text]
+    names = list(dict.fromkeys([*own, *default_columns(target)]))
+    columns = [_integer(one, f"claim.{claim.id}.conclusion") for one in names]
+    table = _table(claim, field, [target, other, *columns], most, jobs, progress)
+    _must_be_finite(table, target, f"claim.{claim.id}.conclusion")
+    finite, grammar = _columns(table, [_named(one) for one in columns], 2), Grammar()
+    bound, refuting = _own(claim, table, target, other, side, strict) if table.rows else (None, None)
+    kept = [k for k, name in enumerate(finite.names) if name in {_named(one) for one in columns[: len(own)]}]
+    narrow = _Columns(tuple(finite.names[k] for k in kept), finite.values[:, kept], {})
+    in_words = tuple(_bounds(claim, table, target, narrow, _fit(table, narrow, grammar, side).kept, side))
+    others = _fit(table, finite, grammar, side)
+    told = {one.text for one in in_words}
+    return Sharpened(
+        id=claim.id,
+        field=field,
+        conclusion=claim.conclusion.text,
+        hypotheses=tuple(one.label for one in claim.hypotheses),
+        counterexample=refuting,
+        own=bound,
+        words=in_words,
+        others=tuple(one for one in _bounds(claim, table, target, finite, others.kept, side) if one.text not in told),
+        left_out=finite.left_out,
+        grammar=grammar.words(side),
+        tried=_evidence(table),
+        seconds=time.perf_counter() - started,
+    )
+
+
+def _bound_of(claim: Claim) -> tuple[Node, str, Node, int]:
+    """Return target (the single quantity, if there is one), side and bound of a conclusion that is a bound, and 1 where it is strict."""
+    node = claim.conclusion
+    if node.op != "compare" or len(node.args) != 2 or node.value[0] not in ("<=", "<", ">=", ">") or node.args[0].kind != Kind.INTEGER:
+        raise InvalidInput(
+            f"claim.{claim.id}.conclusion: got {shorten(node.text)}, expected a bound to sharpen, two integers with <=, <, >= or > between"
+        )
+    left, right = node.args
+    above, strict = node.value[0] in ("<=", "<"), len(node.value[0]) == 1
+    if left.op not in ("quantity", "windowed") and right.op in ("quantity", "windowed"):
+        left, right, above = right, left, not above
+    return left, ABOVE if above else BELOW, right, int(strict)
+
+
+def _own(claim: Claim, table: Table, target: Node, other: Node, side: str, strict: int) -> tuple[Bound | None, ResidualSystem | None]:
+    """Return the claim's bound with the least constant, if some constant will do, and the first system that refutes the claim."""
+    sign = 1 if side == ABOVE else -1
+    gaps = [sign * (row.values[0] - row.values[1]) for row in table.rows]
+    refuting = next((row.system for row, gap in zip(table.rows, gaps, strict=True) if gap > -strict), None)
+    largest = max(gaps)
+    if isinf(largest):
+        return None, refuting
+    attained: NDArray[np.bool_] = np.array([gap == largest for gap in gaps], dtype=bool)
+    whole = linear(other)
+    constant = whole.constant + sign * int(largest)
+    before = f"{target.text} {SIGNS[side]} "
+    told = before + words(whole.multiples.items(), constant)
+    sharper = _refuted(claim, before + words(whole.multiples.items(), constant - sign), table.rows, attained)
+    first = next(row for row, here in zip(table.rows, attained, strict=True) if here)
+    return Bound(told, first.system, _systems(table, attained), (sharper,), _known(claim, told)), refuting
+
+
+def _bounds(claim: Claim, table: Table, target: Node, columns: _Columns, kept: Sequence[Fitted], side: str) -> Iterator[Bound]:
+    sign = 1 if side == ABOVE else -1
+    targets = _targets(table)
+    before = f"{target.text} {SIGNS[side]} "
+    natural: NDArray[np.bool_] = np.all(columns.values >= 0, axis=0)
+    for one in kept:
+        sharper = [(Form(one.form.terms), one.constant - sign)]
+        for k, term in enumerate(one.form.terms):
+            if natural[list(term.columns)].all():
+                smaller = replace(term, coefficient=term.coefficient - sign)
+                terms = tuple(smaller if place == k else other for place, other in enumerate(one.form.terms))
+                sharper.append((Form(tuple(other for other in terms if other.coefficient)), one.constant))
+        told = before + one.form.words(columns.names, one.constant)
+        listed = []
+        for form, constant in sharper:
+            gaps: Integers = sign * (targets - form.on(columns.values) - constant)
+            listed.append(_refuted(claim, before + form.words(columns.names, constant), table.rows, gaps > 0))
+        first = next(row for row, here in zip(table.rows, one.attained, strict=True) if here)
+        yield Bound(told, first.system, _systems(table, one.attained), tuple(listed), _known(claim, told))
+
+
+def _refuted(claim: Claim, text: str, rows: Sequence[Row], failing: NDArray[np.bool_]) -> Sharper:
+    """Return the text of a bound and what refutes it, decided anew by exact functions, or None."""
+    first = next((row for row, here in zip(rows, failing, strict=True) if here), None)
+    if first is None:
+        return Sharper(text, None)
+    asked = replace(claim, conclusion=expression(text, "bound"))
+    return Sharper(text, certified(asked, first.system, smallest=first.in_box))
+
+
+def _known(claim: Claim, text: str) -> tuple[str, ...]:
+    return known_as(expression(text, "bound"), [one.that.text for one in claim.hypotheses])
+
+
+def _table(claim: Claim, field: str, nodes: Sequence[Node], most: int, jobs: int, progress: Progress) -> Table:
+    for name, value in (("most", most), ("jobs", jobs)):
+        _number(value, name, 1, MOST)
+    box: Box = claim.boxes[field]
+    return tabulate(box, [one.that for one in claim.hypotheses], nodes, most=most, jobs=jobs, progress=progress)
+
+
+def _must_be_finite(table: Table, target: Node, where: str) -> None:
+    found = next((row for row in table.rows if isinf(row.values[0])), None)
+    if found is not None:
+        raise InvalidInput(
+            f"{where}: got {shorten(target.text)}, which is inf on {found.system}, expected one that is finite under the hypotheses; "
+            f'the hypothesis "{target.text} < inf" makes it so'
+        )
+
+
+def _columns(table: Table, names: Sequence[str], begin: int) -> _Columns:
+    """Return the columns of the table from number `begin` on, whose names these are."""
+    kept, left_out = [], {}
+    for k, name in enumerate(names):
+        infinite = next((row for row in table.rows if isinf(row.values[begin + k])), None)
+        if infinite is None:
+            kept.append(k)
+        else:
+            left_out[name] = infinite.system
+    values = np.array([[row.values[begin + k] for k in kept] for row in table.rows], dtype=np.int64).reshape(len(table.rows), len(kept))
+    return _Columns(tuple(names[k] for k in kept), values, left_out)
+
+
+def _fit(table: Table, columns: _Columns, grammar: Grammar, side: str) -> Fit:
+    return fit(_targets(table), columns.values, _in_box(table), grammar, side)
+
+
+def _targets(table: Table) -> Integers:
+    return np.array([row.values[0] for row in table.rows], dtype=np.int64)
+
+
+def _in_box(table: Table) -> NDArray[np.bool_]:
+    return np.array([row.in_box for row in table.rows], dtype=bool)
+
+
+def _systems(table: Table, attained: NDArray[np.bool_]) -> int:
+    return sum(row.systems for row, here in zip(table.rows, attained, strict=True) if here)
+
+
+def _evidence(table: Table) -> Evidence:
+    counts = {name: getattr(table, name) for name in Evidence.__dataclass_fields__ if name not in ("box", "rows")}
+    return Evidence(box=str(table.box), rows=len(table.rows), **counts)
+
+
+def _integer(text: object, where: str) -> Node:
+    if not isinstance(text, str):
+        raise InvalidInput(f"{where}: got {shorten(text)}, expected an expression as a string")
+    return expression(text, where, Kind.INTEGER)
+
+
+def _listed(by: object) -> list[str]:
+    if isinstance(by, str) or not isinstance(by, Sequence) or not 1 <= len(by) <= MOST_COLUMNS:
+        raise InvalidInput(f"by: got {shorten(by)}, expected a list of 1 to {MOST_COLUMNS} expressions")
+    return list(by)
+
+
+def _named(node: Node) -> str:
+    """Return the text of a column, which stands in a sum."""
+    return (
+        node.text
+        if node.op in ("constant", "quantity", "windowed", "item", "abs", "min", "max", "sum", "len", *OF_A_MATRIX)
+        else f"({node.text})"
+    )
+
+
+def _number(value: object, name: str, least: int, most: int) -> int:
+    if type(value) is not int or not least <= value <= most:
+        raise InvalidInput(f"{name}: got {shorten(value)}, expected an integer from {least} to {most}")
+    return value
