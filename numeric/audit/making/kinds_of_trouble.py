@@ -306,8 +306,8 @@ def _resized(drawn: Callable[[Random], ResidualSystem], faults: int, outputs: Se
 def _silent_mode(rng: Random) -> ResidualSystem:
     """No fault acts, and no output shows one of the two states: its eigenvalue is a zero, and the rank is none."""
     shown, unseen = rng.sample(HALVES, 2)
-    A, F, C, G = [[shown, 0], [0, unseen]], [[0], [0]], [[1, 0], [rng.choice((-2, 2)), 0]], [[0], [0]]
-    return hidden(rng, ResidualSystem(matrix(A, 2), matrix(F, 1), matrix(C, 2), matrix(G, 1)))
+    A, C = matrix([[shown, 0], [0, unseen]], 2), matrix([[1, 0], [rng.choice((-2, 2)), 0]], 2)
+    return hidden(rng, ResidualSystem(A, matrix([[0], [0]], 1), C, matrix([[0], [0]], 1)))
 
 
 def _adding_up(rng: Random) -> ResidualSystem:

@@ -171,7 +171,7 @@ def digits(rng: Random, height: int, width: int) -> Matrix:
 
 def late(rng: Random, height: int, width: int) -> Matrix:
     """Return zeros in SILENCE samples, and digits after them."""
-    return matrix([[0] * width] * SILENCE + fractions(digits(rng, height, width)), width)
+    return matrix([[Fraction(0)] * width] * SILENCE + fractions(digits(rng, height, width)), width)
 
 
 def spiked(rng: Random, height: int, width: int) -> Matrix:
