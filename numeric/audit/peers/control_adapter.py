@@ -15,18 +15,12 @@ from typing import Any
 from unittest.mock import patch
 
 import control
-import numpy as np
 
 from ....base.arrays import Array
 from ..records import Refused
-from ..vectors.rationals import floats
-from ..vectors.shipped_vectors import IdentificationVector
-from ._promises import asked_of, models, systems
+from ._promises import from_a_state, not_over, not_square
 
 LONGEST = 100
-OVER = 1e-10  # what is left of an impulse response that is over: less than the bounds of the checks
-AT_REST = "markov has no initial state"
-ENDS = "markov takes the impulse response to be over after m samples"
 
 
 def _taken(samples: int, n_u: int, order: int) -> int:
@@ -64,18 +58,8 @@ def _without_slycot(A: Array, F: Array, C: Array, G: Array) -> dict[str, Any]:
         return structure(A, F, C, G)
 
 
-without_slycot = SimpleNamespace(
-    structure=_without_slycot,
-    NOT_PROMISED=asked_of("structure", {name for name, one in systems().items() if one.p != one.m}, "zeros of square systems alone"),
-)
-
-
-def _lasts(model: IdentificationVector) -> bool:
-    """Say whether the impulse response is not over after m samples."""
-    radius = np.abs(np.linalg.eigvals(floats(model.A))).max(initial=0.0)
-    return bool(radius ** _taken(model.u.nrows, model.u.ncols, model.order) > OVER)
-
-
-NOT_PROMISED = asked_of("identify", {name for name, model in models().items() if _lasts(model)}, ENDS) | asked_of(
-    "identify", {name for name, model in models().items() if floats(model.x0).any()}, AT_REST
+without_slycot = SimpleNamespace(structure=_without_slycot)
+without_slycot.NOT_PROMISED = not_square("zeros of square systems alone")
+NOT_PROMISED = not_over(_taken, "markov takes the impulse response to be over after m samples") | from_a_state(
+    "markov has no initial state"
 )

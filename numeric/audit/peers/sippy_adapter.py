@@ -16,12 +16,9 @@ from typing import Any
 from sippy_unipi import system_identification
 
 from ....base.arrays import Array
-from ..vectors.rationals import floats
-from ._promises import asked_of, models
+from ._promises import with_feedthrough as plants_with_feedthrough
 
-NOT_PROMISED = asked_of(
-    "identify", {name for name, model in models().items() if floats(model.D).any()}, "the default SS_D_required=False estimates no D"
-)
+NOT_PROMISED = plants_with_feedthrough("the default SS_D_required=False estimates no D")
 
 
 def _identified(y: Array, u: Array, order: int, block_rows: int, **options: bool) -> tuple[Any, Any, Any, Any]:

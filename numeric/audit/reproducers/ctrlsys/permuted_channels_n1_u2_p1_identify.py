@@ -10,7 +10,7 @@ comparing in floats adds rounding, which is far below it. The eigenvalues of the
 Pair each true number with one of the answer's, so that none is used twice and the sum of distances is least;
 each is within its bound.
 
-Made by faultspace 0.1.0: faultspace audit --reproduce 'permuted-channels[n1-u2-p1]-identify' --language
+Made by faultspace unknown: faultspace audit --reproduce 'permuted-channels[n1-u2-p1]-identify' --language
 python
 """
 
@@ -80,24 +80,36 @@ def structure_of(nu: int, rank: int, infz: Sequence[int], Af: Any, Bf: Any, inpu
     orders = [i + 1 for i, count in enumerate(infz) for _ in range(int(count))]
     return ZeroStructure(int(rank), [complex(z) for z in zeros], [0] * (int(rank) - len(orders)) + orders, int(rank) == inputs)
 
+from types import SimpleNamespace
 from typing import Any
 import ctrlsys
 import numpy as np
 SINGULAR = (3, 4, 5)
 
 
-def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
-    """info other than 0, and warnings that say the problem is singular, are refusals."""
+def _identified(y: Array, u: Array, order: int, block_rows: int, method: str, for_matrices: str) -> tuple[Any, Any, Any, Any]:
     outputs, inputs = np.asfortranarray(y), np.asfortranarray(u)
     n_u, p = u.shape[1], y.shape[1]
-    _, factor, _, warning, info = ctrlsys.ib01ad("M", "C", "M", "O", "N", "N", block_rows, n_u, p, inputs, outputs, 0.0, -1.0)
+    _, factor, _, warning, info = ctrlsys.ib01ad("M", "C", for_matrices, "O", "N", "N", block_rows, n_u, p, inputs, outputs, 0.0, -1.0)
     if info != 0 or warning in SINGULAR:
         raise ValueError(f"ib01ad: info {info}, warning {warning}")
-    A, C, B, D, *_, warning, info = ctrlsys.ib01bd("M", "A", "N", block_rows, order, n_u, p, len(y), np.asfortranarray(factor), 0.0)
+    A, C, B, D, *_, warning, info = ctrlsys.ib01bd(method, "A", "N", block_rows, order, n_u, p, len(y), np.asfortranarray(factor), 0.0)
     if info != 0 or warning == 4:  # a least-squares problem with a rank-deficient matrix
         raise ValueError(f"ib01bd: info {info}, warning {warning}")
     return A, B, C, D
 
+
+
+def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
+    """info other than 0, and warnings that say the problem is singular, are refusals."""
+    return _identified(y, u, order, block_rows, "M", "M")
+
+
+
+def _combined(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
+    return _identified(y, u, order, block_rows, "C", "N")
+
+combined = SimpleNamespace(identify=_combined)
 
 
 def structure(A: Array, F: Array, C: Array, G: Array) -> ZeroStructure:

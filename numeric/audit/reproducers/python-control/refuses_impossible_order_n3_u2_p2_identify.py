@@ -2,7 +2,7 @@
 
 How it is compared: No answer is right. The function raises an error or answers nothing. It must be refused.
 
-Made by faultspace 0.1.0: faultspace audit --reproduce 'refuses-impossible-order[n3-u2-p2]-identify'
+Made by faultspace unknown: faultspace audit --reproduce 'refuses-impossible-order[n3-u2-p2]-identify'
 --language python
 """
 
@@ -50,10 +50,19 @@ def sine(got, expected):
 Array = object
 class Refused(ValueError):
     pass
+import sys
 import warnings
+from types import SimpleNamespace
 from typing import Any
+from unittest.mock import patch
 import control
 LONGEST = 100
+
+
+def _taken(samples: int, n_u: int, order: int) -> int:
+    """Return the number m of Markov parameters."""
+    return max(min(samples // (2 * n_u), LONGEST), 4 * order + 1)
+
 
 
 def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
@@ -61,7 +70,7 @@ def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any,
     Hankel matrix takes (the default m, as many as samples, is right for a single input at rest alone).
     """
     n_u, p = u.shape[1], y.shape[1]
-    m = max(min(len(u) // (2 * n_u), LONGEST), 4 * order + 1)
+    m = _taken(len(u), n_u, order)
     with warnings.catch_warnings():
         warnings.simplefilter("error", UserWarning)  # "Not enough data for requested number of parameters"
         try:
@@ -79,6 +88,15 @@ def structure(A: Array, F: Array, C: Array, G: Array) -> dict[str, Any]:
         return {"finite_zeros": [complex(z) for z in control.StateSpace(A, F, C, G, True).zeros()]}
     except NotImplementedError as lacking:
         raise Refused(str(lacking)) from lacking
+
+
+
+def _without_slycot(A: Array, F: Array, C: Array, G: Array) -> dict[str, Any]:
+    # The package imports slycot where it needs it, and takes a module of None for one that is not installed.
+    with patch.dict(sys.modules, {"slycot": None}):
+        return structure(A, F, C, G)
+
+without_slycot = SimpleNamespace(structure=_without_slycot)
 
 # -- the question
 y = np.array([

@@ -71,6 +71,8 @@ def inlined(module: str) -> str:
             continue
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
             continue
+        if _promises(node):
+            continue
         if isinstance(node, ast.ImportFrom) and node.level:
             parts += [OWN[name.name] if name.name in OWN else inlined(str(node.module)) for name in node.names]
             continue
@@ -78,6 +80,13 @@ def inlined(module: str) -> str:
         if isinstance(node, ast.FunctionDef):
             kept[-1] = "\n\n" + kept[-1] + "\n"
     return "\n".join(dict.fromkeys(parts)) + "\n" + "\n".join(kept)
+
+
+def _promises(node: ast.stmt) -> bool:
+    """Say whether a line of an adapter is about what the package never promised, which matters to an audit alone."""
+    if isinstance(node, ast.Assign):
+        return any(ast.unparse(target).rpartition(".")[2] == "NOT_PROMISED" for target in node.targets)
+    return isinstance(node, ast.ImportFrom) and node.module == "_promises"
 
 
 def _octave(file: Path, function: str) -> list[str]:

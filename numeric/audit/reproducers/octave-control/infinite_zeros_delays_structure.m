@@ -1,0 +1,86 @@
+% infinite-zeros[delays]-structure: wrong delays, wrong n_v + zeta: the fault space has another dimension than told.
+%
+% How it is compared: In ascending order, they are equal to the true ones.
+%
+% Made by faultspace unknown: faultspace audit --reproduce 'infinite-zeros[delays]-structure' --language octave
+
+failed = false;
+% -- how Octave's control (SLICOT): moesp; zero is called
+1;
+pkg load control
+
+function a = identify(q)
+  % iddata: a row a sample. s and n are what a user gives; all else by default (Cholesky).
+  found = moesp(iddata(q.y, q.u, 1), q.order, "s", q.block_rows);
+  % Notices that take nothing from A, B, C, D: a Kalman gain of zero, QR where Cholesky failed.
+  if ! isempty(regexp(lastwarn(), "gain matrix is set to zero|QR algorithm was then used")), lastwarn(""); end
+  [a.A, a.B, a.C, a.D] = ssdata(found);
+end
+
+function a = asked_structure(q)
+  [z, ~, info] = zero(ss(q.A, q.F, q.C, q.G, 1));
+  infinite = [];  % infz(i) of order i; those of order 0 are not listed
+  for i = 1:numel(info.infz), infinite = [infinite repmat(i, 1, info.infz(i))]; end
+  a.normal_rank = info.rank;
+  a.finite_zeros = num2cell([real(z(:)) imag(z(:))], 2)';
+  a.infinite_zero_orders = [zeros(1, info.rank - numel(infinite)) infinite];
+  a.left_invertible = info.rank == columns(q.F);
+end
+
+function answer = structure(A, F, C, G)
+  answer = asked_structure(struct("A", A, "F", F, "C", C, "G", G)); answer.finite_zeros = cellfun(@(z) complex(z(1), z(2)), answer.finite_zeros);
+end
+
+% -- the question
+A = [
+  0.0 1.0 0.0 0.0 0.0 0.0 1.0 0.0
+  0.0 1.0 0.0 0.0 0.0 0.0 1.0 0.0
+  1.5 -2.5 0.5 0.0 0.0 -2.0 -1.0 0.0
+  0.0 1.0 0.0 1.0 1.0 0.0 1.0 0.0
+  -1.0 0.0 0.0 -1.0 -1.0 0.0 -1.0 0.0
+  -1.0 -1.0 0.0 1.0 0.0 0.0 -1.0 0.0
+  0.0 -1.0 0.0 0.0 0.0 0.0 -1.0 0.0
+  -3.0 0.25 0.25 1.0 0.0 1.75 -1.0 -0.75
+];
+F = [
+  0.0 0.0
+  -1.0 1.0
+  1.0 -1.0
+  0.0 0.0
+  0.0 0.0
+  1.0 -1.0
+  2.0 -1.0
+  1.0 -1.0
+];
+C = [
+  -2.0 2.0 0.5 0.0 0.0 3.5 0.0 -2.0
+  -1.5 -2.0 -0.5 0.0 0.0 -3.0 0.0 1.5
+  -2.0 -1.5 -0.5 0.0 0.0 0.0 0.0 -1.0
+];
+G = [
+  0.0 0.0
+  0.0 0.0
+  0.0 0.0
+];
+
+try
+  answer = structure(A, F, C, G);
+catch problem
+  fprintf('refused: %s\nWRONG: an answer is due\n', problem.message); exit(1);
+end
+
+expected = [
+  2
+  4
+];
+bound = 0.0;
+what = 'number of orders';
+got = answer.infinite_zero_orders;
+off = inf; if isequal(double(sort(got(:))), double(sort(expected(:)))), off = 0; end
+bound = 0;
+ratio = max([0; off(:) ./ max(bound(:), realmin)]); wrong = any(~(off(:) <= bound(:))); failed = failed || wrong;
+words = {'right', 'WRONG'}; fprintf('%s: %s\n', what, words{wrong + 1});
+disp('  got'); disp(got); disp('  expected'); disp(expected);
+fprintf('  off by %.3g, largest ratio to the bound %.3g\n', max([0; off(:)]), ratio);
+
+exit(double(failed));
