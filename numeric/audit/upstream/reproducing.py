@@ -46,10 +46,12 @@ def script(
     dialect = LANGUAGES[language]
     head = dialect.heading(_words(check, language))
     load = loaded(check.function, language, adapter=adapter, peer=peer, command=command)
-    if check.slug in GROWS:
+    long_model = (check.slug, check.function) == ("right-on-long-records", "identify")
+    if check.slug in GROWS or long_model:
         if language != "python":
             raise InvalidData(f"check {check.full_name}: there is a script in Python alone, expected --language python")
-        return "\n".join([*head, *load, *growing.lines(check), *dialect.ending()]) + "\n"
+        lines = growing.model_lines(check) if long_model else growing.lines(check)
+        return "\n".join([*head, *load, *lines, *dialect.ending()]) + "\n"
     return "\n".join([*head, *load, *_body(check, dialect), *dialect.ending()]) + "\n"
 
 

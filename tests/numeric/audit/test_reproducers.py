@@ -40,7 +40,8 @@ def test_each_finding_has_a_script_that_the_page_links() -> None:
     linked = {one for one in SCRIPTS if f"]({one.relative_to(ROOM)})" in page}
     assert linked == set(SCRIPTS)
     languages = {one.name: one.language for one in PEERS}
-    scripted = [(peer, check) for peer, check in found(board) if languages[peer] == "Python" or "grows-with-N" not in check]
+    made_there = ("grows-with-N", "right-on-long-records")  # records too long to stand in a script: in Python alone
+    scripted = [(peer, check) for peer, check in found(board) if languages[peer] == "Python" or not any(one in check for one in made_there)]
     assert len(SCRIPTS) == len(scripted) > 50
 
 

@@ -78,8 +78,8 @@ C = np.array([[-1.0, -2.0, -2.0], [-1.0, -2.0, -2.0], [2.0, 1.0, -1.0]])
 D = np.array([[-2.0], [2.0], [1.0]])
 
 
-def cost(length):
-    """Of a record of that length: signs of a linear congruential generator through the system, from rest."""
+def driven(length):
+    """The outputs and the inputs: signs of a linear congruential generator through the system, from rest."""
     state, drawn, x, out = 20250523, [], np.zeros(len(A)), []
     for _ in range(length * B.shape[1]):
         state = (6364136223846793005 * state + 1442695040888963407) % 2**64
@@ -88,7 +88,11 @@ def cost(length):
     for w in signs:
         out.append(C @ x + D @ w)
         x = A @ x + B @ w
-    record = np.array(out)
+    return np.array(out), signs
+
+
+def cost(length):
+    record, signs = driven(length)
     tracemalloc.start()
     identify(record, signs, 3, 4)
     most = tracemalloc.get_traced_memory()[1]  # bytes of numpy and Python alone

@@ -2,5 +2,5 @@
 
 writing   what a language has to say: literals, calls, comparisons
 python, matrices, julia   Python with numpy alone; Octave and MATLAB, which share a text; Julia
-growing   a script of memory or time, in Python
+growing   scripts on records too long to stand in them, in Python
 """

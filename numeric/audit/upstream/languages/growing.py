@@ -1,9 +1,14 @@
-"""A script that measures how memory or time of a function grows, in Python.
+"""Scripts on records that are too long to stand in them, and are made there, in Python.
 
-lines   the body of the script
+lines         how memory or time of a function grows
+model_lines   whether a model of a long record is the one that made it
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+
+from faultspace.exact.algebra.matrices import Matrix
 
 from ...checks import growth
 from ...records import Check
@@ -14,8 +19,6 @@ from ...vectors.rationals import floats
 def lines(check: Check) -> list[str]:
     """Return the recipe of the records, the costs at two lengths, and the exponent beside its bound."""
     memory = check.slug == "memory-grows-with-N"
-    used = growth.driven_system(check.function)
-    matrices = [f"{name} = np.array({floats(one).tolist()!r})" for name, one in zip("ABCD", used, strict=True)]
     short = dict(zip(ARGUMENTS[check.function], growth.question(check.function, 100), strict=True))
     rest = {"y": "record", "r": "record", "u": "signs", "F": "B", "G": "D", "x0": "np.zeros(len(A))"}
     given = ", ".join(
@@ -24,6 +27,7 @@ def lines(check: Check) -> list[str]:
     )
     cost = (
         [
+            "    record, signs = driven(length)",
             "    tracemalloc.start()",
             f"    {check.function}({given})",
             "    most = tracemalloc.get_traced_memory()[1]  # bytes of numpy and Python alone",
@@ -31,7 +35,12 @@ def lines(check: Check) -> list[str]:
             "    return most",
         ]
         if memory
-        else ["    begun = time.process_time()", f"    {check.function}({given})", "    return time.process_time() - begun"]
+        else [
+            "    record, signs = driven(length)",
+            "    begun = time.process_time()",
+            f"    {check.function}({given})",
+            "    return time.process_time() - begun",
+        ]
     )
     floor = growth.MEMORY_FLOOR if memory else growth.TIME_FLOOR
     return [
@@ -39,20 +48,10 @@ def lines(check: Check) -> list[str]:
         "import tracemalloc",
         "from math import log",
         "",
-        *matrices,
+        *_driven(growth.driven_system(check.function)),
         "",
         "",
         "def cost(length):",
-        '    """Of a record of that length: signs of a linear congruential generator through the system, from rest."""',
-        f"    state, drawn, x, out = {growth.SEED}, [], np.zeros(len(A)), []",
-        "    for _ in range(length * B.shape[1]):",
-        "        state = (6364136223846793005 * state + 1442695040888963407) % 2**64",
-        "        drawn.append(1.0 if state >> 63 else -1.0)",
-        "    signs = np.ascontiguousarray(np.array(drawn).reshape(B.shape[1], length).T)",
-        "    for w in signs:",
-        "        out.append(C @ x + D @ w)",
-        "        x = A @ x + B @ w",
-        "    record = np.array(out)",
         *cost,
         "",
         "",
@@ -63,4 +62,46 @@ def lines(check: Check) -> list[str]:
         f"failed = exponent > {growth.BOUND!r}",
         "print('WRONG' if failed else 'right', '- costs', costs, 'at lengths', lengths)",
         f"print(f'  exponent: got {{exponent:.2f}}, at most {growth.BOUND}')",
+    ]
+
+
+def model_lines(check: Check) -> list[str]:
+    """Return the recipe of the record, the call, and the Markov parameters beside the whole numbers that they are."""
+    kind = next(kind for kind, suffix in growth.KINDS.items() if check.vector == f"N{growth.LENGTHS[1]}{suffix}")
+    *_, order, block_rows = growth.question("identify", 10, kind)
+    return [
+        "",
+        *_driven(growth.driven_system("identify", kind)),
+        "",
+        "",
+        "def markov(A, B, C, D):",
+        "    return np.array([D] + [C @ np.linalg.matrix_power(A, k) @ B for k in range(2 * len(A) + 1)])",
+        "",
+        "",
+        f"record, signs = driven({growth.LENGTHS[1]})",
+        f"found = [np.asarray(one, dtype=float) for one in identify(record, signs, {order}, {block_rows})]",
+        "off = np.abs(markov(*found) - markov(A, B, C, D)).max()",
+        f"failed = not off <= {growth.NEAREST!r}",
+        "print('WRONG' if failed else 'right', '- D, C B, C A B, ...')",
+        f"print(f'  from whole numbers: got {{off:.2g}}, at most {growth.NEAREST}')",
+    ]
+
+
+def _driven(system: Sequence[Matrix]) -> list[str]:
+    """Return the lines that define A, B, C, D and what makes a record of a length."""
+    return [
+        *(f"{name} = np.array({floats(one).tolist()!r})" for name, one in zip("ABCD", system, strict=True)),
+        "",
+        "",
+        "def driven(length):",
+        '    """The outputs and the inputs: signs of a linear congruential generator through the system, from rest."""',
+        f"    state, drawn, x, out = {growth.SEED}, [], np.zeros(len(A)), []",
+        "    for _ in range(length * B.shape[1]):",
+        "        state = (6364136223846793005 * state + 1442695040888963407) % 2**64",
+        "        drawn.append(1.0 if state >> 63 else -1.0)",
+        "    signs = np.ascontiguousarray(np.array(drawn).reshape(B.shape[1], length).T)",
+        "    for w in signs:",
+        "        out.append(C @ x + D @ w)",
+        "        x = A @ x + B @ w",
+        "    return np.array(out), signs",
     ]

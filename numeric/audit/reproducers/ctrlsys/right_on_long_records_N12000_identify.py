@@ -1,0 +1,148 @@
+"""right-on-long-records[N12000]-identify: wrong answers on records of ordinary length.
+
+How it is compared: On a record of the length given, made by signs through the system, the answer differs from
+the true one by no more than half of a unit in each quantity named.
+
+Made by faultspace unknown: faultspace audit --reproduce 'right-on-long-records[N12000]-identify' --language
+python
+"""
+
+import base64
+import sys
+import zlib
+
+import numpy as np
+
+failed = False
+
+
+def told(what, got, expected, off, bound):
+    """Print one comparison; `off` and `bound` are arrays of one shape or numbers."""
+    global failed
+    off, bound = (np.atleast_1d(np.asarray(one, dtype=float)) for one in (off, bound))
+    wrong = bool(np.any(~(off <= bound)))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = np.where(off == 0, 0.0, off / bound)
+    failed = failed or wrong
+    print(f"{what}: {'WRONG' if wrong else 'right'}")
+    print("  got     ", np.array2string(np.asarray(got), threshold=40, prefix="  got      "))
+    print("  expected", np.array2string(np.asarray(expected), threshold=40, prefix="  expected "))
+    print(f"  off by {np.max(off, initial=0.0):.3g}, largest ratio to the bound {np.max(ratio, initial=0.0):.3g}")
+
+
+def nearest(got, expected):
+    """The numbers of `got` in the order of those of `expected` that they are nearest to; NaN where one is missing."""
+    left, found = list(np.asarray(got, dtype=complex)), []
+    for z in expected:
+        found.append(left.pop(int(np.argmin(np.abs(np.array(left) - z)))) if left else np.nan)
+    return np.array(found + ([np.nan] if left else []), dtype=complex)
+
+
+def sine(got, expected):
+    """The sine of the largest angle between the spaces of the columns, 1 where their dimensions differ."""
+    spaces = []
+    for columns in (got, expected):
+        U, s, _ = np.linalg.svd(columns / (np.max(np.abs(columns), initial=0.0) or 1.0), full_matrices=False)
+        spaces.append(U[:, s > 1e-12 * max(s, default=0.0)])
+    P, Q = spaces
+    return 1.0 if P.shape != Q.shape else np.linalg.norm(P - Q @ (Q.T @ P), 2)
+
+# -- how ctrlsys (SLICOT in C): ib01ad, ib01bd; ab08nd is called
+Array = object
+from types import SimpleNamespace
+
+
+def ZeroStructure(rank, zeros, orders, invertible):
+    return SimpleNamespace(normal_rank=rank, finite_zeros=zeros, infinite_zero_orders=orders, left_invertible=invertible)
+from types import SimpleNamespace
+
+
+def ZeroStructure(rank, zeros, orders, invertible):
+    return SimpleNamespace(normal_rank=rank, finite_zeros=zeros, infinite_zero_orders=orders, left_invertible=invertible)
+from collections.abc import Sequence
+from typing import Any
+import numpy as np
+import scipy.linalg
+
+
+def structure_of(nu: int, rank: int, infz: Sequence[int], Af: Any, Bf: Any, inputs: int) -> ZeroStructure:
+    """Finite zeros are the eigenvalues of the pencil (Af, Bf), which is left to the caller of AB08ND. infz[i] infinite zeros have the order
+    i + 1; as many as the rank leaves over have the order 0, which AB08ND does not list.
+    """
+    zeros = scipy.linalg.eigvals(Af[:nu, :nu], Bf[:nu, :nu]) if nu else np.zeros(0)
+    orders = [i + 1 for i, count in enumerate(infz) for _ in range(int(count))]
+    return ZeroStructure(int(rank), [complex(z) for z in zeros], [0] * (int(rank) - len(orders)) + orders, int(rank) == inputs)
+
+from types import SimpleNamespace
+from typing import Any
+import ctrlsys
+import numpy as np
+SINGULAR = (3, 4, 5)
+
+
+def _identified(y: Array, u: Array, order: int, block_rows: int, method: str, for_matrices: str) -> tuple[Any, Any, Any, Any]:
+    outputs, inputs = np.asfortranarray(y), np.asfortranarray(u)
+    n_u, p = u.shape[1], y.shape[1]
+    _, factor, _, warning, info = ctrlsys.ib01ad("M", "C", for_matrices, "O", "N", "N", block_rows, n_u, p, inputs, outputs, 0.0, -1.0)
+    if info != 0 or warning in SINGULAR:
+        raise ValueError(f"ib01ad: info {info}, warning {warning}")
+    A, C, B, D, *_, warning, info = ctrlsys.ib01bd(method, "A", "N", block_rows, order, n_u, p, len(y), np.asfortranarray(factor), 0.0)
+    if info != 0 or warning == 4:  # a least-squares problem with a rank-deficient matrix
+        raise ValueError(f"ib01bd: info {info}, warning {warning}")
+    return A, B, C, D
+
+
+
+def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
+    """info other than 0, and warnings that say the problem is singular, are refusals."""
+    return _identified(y, u, order, block_rows, "M", "M")
+
+
+
+def _combined(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
+    return _identified(y, u, order, block_rows, "C", "N")
+
+combined = SimpleNamespace(identify=_combined)
+
+
+def structure(A: Array, F: Array, C: Array, G: Array) -> ZeroStructure:
+    """It is called without scaling, at the default tolerance."""
+    n, m = len(A), F.shape[1]
+    matrices = (np.asfortranarray(M) for M in (A, F, C, G))
+    nu, rank, dinfz, _, _, infz, _, _, Af, Bf, info = ctrlsys.ab08nd("N", n, m, len(C), *matrices, 0.0)
+    if info != 0:
+        raise ValueError(f"ab08nd: info {info}")
+    return structure_of(nu, rank, infz[:dinfz], Af, Bf, m)
+
+# -- the question
+
+A = np.array([[0.0, -1.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]])
+B = np.array([[-2.0], [-2.0], [1.0]])
+C = np.array([[-1.0, -2.0, -2.0], [-1.0, -2.0, -2.0], [2.0, 1.0, -1.0]])
+D = np.array([[-2.0], [2.0], [1.0]])
+
+
+def driven(length):
+    """The outputs and the inputs: signs of a linear congruential generator through the system, from rest."""
+    state, drawn, x, out = 20250523, [], np.zeros(len(A)), []
+    for _ in range(length * B.shape[1]):
+        state = (6364136223846793005 * state + 1442695040888963407) % 2**64
+        drawn.append(1.0 if state >> 63 else -1.0)
+    signs = np.ascontiguousarray(np.array(drawn).reshape(B.shape[1], length).T)
+    for w in signs:
+        out.append(C @ x + D @ w)
+        x = A @ x + B @ w
+    return np.array(out), signs
+
+
+def markov(A, B, C, D):
+    return np.array([D] + [C @ np.linalg.matrix_power(A, k) @ B for k in range(2 * len(A) + 1)])
+
+
+record, signs = driven(12000)
+found = [np.asarray(one, dtype=float) for one in identify(record, signs, 3, 4)]
+off = np.abs(markov(*found) - markov(A, B, C, D)).max()
+failed = not off <= 0.5
+print('WRONG' if failed else 'right', '- D, C B, C A B, ...')
+print(f'  from whole numbers: got {off:.2g}, at most 0.5')
+sys.exit(1 if failed else 0)
