@@ -35,7 +35,10 @@ end
 
 function R = factor_of(H), [~, R] = qr(H, 0); end
 
-function t = rounding_of(M), t = 16 * eps * sqrt(max(columns(M), 1)) * norm(M, "fro"); end
+function t = rounding_of(M, samples)  % of a matrix, or of the factor of one with so many rows
+  if nargin < 2, samples = columns(M); end
+  t = 16 * eps * sqrt(max([samples, columns(M), 1])) * norm(M, "fro");
+end
 
 function k = rank_of(M, tolerance)
   if nargin < 2, tolerance = rounding_of(M); end
@@ -46,7 +49,7 @@ function ranks = window_ranks(r, windows)
   [N, p] = size(r);
   if N - windows + 1 < p * windows, error("%d samples are too few for %d windows of %d outputs", N, windows, p); end
   r = r ./ sizes(r);  ranks = zeros(1, windows);
-  for s = 1:windows, ranks(s) = rank_of(factor_of(hankel_rows(r, s))); end
+  for s = 1:windows, R = factor_of(hankel_rows(r, s)); ranks(s) = rank_of(R, rounding_of(R, N)); end
 end
 
 function [k, ratio] = gap(sigma, floor_)  % where the singular values drop most, and by what factor
@@ -59,7 +62,7 @@ function [steps, noisy] = growth(x, offset)  % by how many the rank grows with a
   R = factor_of(hankel_rows(x ./ sizes(x), longest));
   exact = zeros(1, longest);  clear_ = nan(1, longest);
   for s = 1:longest
-    part = R(1:s*p, 1:s*p);  sigma = svd(part);  t = rounding_of(part);  exact(s) = sum(sigma > t);
+    part = R(1:s*p, 1:s*p);  sigma = svd(part);  t = rounding_of(part, N);  exact(s) = sum(sigma > t);
     if s * p > 1
       [k, ratio] = gap(sigma, t);
       if ratio > 9 && max(sigma(k+1), t) < 9 * max(sigma(end), t), clear_(s) = k; end
@@ -136,9 +139,9 @@ function Z = fault_space(r, A, C, n_v, s)
   of_x = ones(n, 1);
   if n > 0, [of_x, ~] = balance(A, "noperm");  of_x = diag(of_x);  of_x /= max(norm(C .* of_x'), realmin); end
    A = A ./ of_x .* of_x';  C = C .* of_x';
-  R = factor_of(hankel_rows(r, s));  [~, S, V] = svd(R);  sigma = diag(S);  t = rounding_of(R);  k = sum(sigma > t);
+  R = factor_of(hankel_rows(r, s));  [~, S, V] = svd(R);  sigma = diag(S);  t = rounding_of(R, rows(r));  k = sum(sigma > t);
   before = 0;
-  if s > 1, before = rank_of(factor_of(hankel_rows(r, s - 1))); end
+  if s > 1, R = factor_of(hankel_rows(r, s - 1));  before = rank_of(R, rounding_of(R, rows(r))); end
   if k - before != n_v, error("%d faults do not show in these data: the rank grows by %d", n_v, k - before); end
   turned = eps;
   if k > 0, turned = max(eps, t / sigma(k)); end
