@@ -212,7 +212,7 @@ def conjecture(
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the certificates there.", show_default=False)] = None,
     json: Json = False,
 ) -> int:
-    """Seek the sharpest bounds on a quantity of systems by others.
+    """Seek bounds that nothing refutes.
 
     What is answered is refuted by nothing that was tried and attained by a system, none is implied by the others, and the
     next sharper ones come with the smallest system that refutes them. It is no proof; docs/your-claims.md tells the language.

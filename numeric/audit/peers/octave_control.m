@@ -17,7 +17,8 @@ function a = structure(q)
   a.normal_rank = info.rank;
   a.finite_zeros = num2cell([real(z(:)) imag(z(:))], 2)';
   a.infinite_zero_orders = [zeros(1, info.rank - numel(infinite)) infinite];
-  a.left_invertible = info.rank == columns(q.F);
+  % G has a row an output; F has none where there are no states, and then no columns in JSON.
+  a.left_invertible = info.rank == columns(q.G);
 end
 
 answer_questions(struct("identify", @identify, "structure", @structure));

@@ -183,7 +183,7 @@ def test_a_miss_by_less_than_ten_bounds_of_rounding_is_near(ratio: float, change
 
 
 def test_what_is_no_bound_of_rounding_knows_nothing_near() -> None:
-    """The bias of a method, an exponent of growth and a level under noise are on one side or on the other."""
+    """The bias of a method, an exponent of growth, a level under noise and an answer given twice are on one side or on the other."""
     strict = {one.slug for one in all_checks() if one.nearness == 1}
     assert strict == {
         "consistent-under-coloured-fault",
@@ -192,6 +192,10 @@ def test_what_is_no_bound_of_rounding_knows_nothing_near() -> None:
         "right-on-long-records",
         "space-of-record-noisy",
         "space-of-record-noisy-other-units",
+        "earlier-answers-stay",
+        "forgets-the-records",
+        "one-argument-changed",
+        "same-beginning",
     }
 
 

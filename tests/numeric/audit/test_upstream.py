@@ -240,6 +240,10 @@ def test_the_reader_in_python_agrees_with_our_own_comparisons(folder: Path) -> N
     assert compared > 50
 
 
+def spoilt_by_one(answer: Any) -> Any:
+    return tuple(one + 1 for one in answer)
+
+
 def spoilt(answer: Any) -> Any:
     """It is a thousandth off, or one where numbers are whole; nothing of it is right."""
     if isinstance(answer, tuple) and isinstance(answer[0], np.ndarray):
@@ -308,7 +312,8 @@ def executed(text: str, replacing: Mapping[str, Any] | None = None) -> tuple[int
 
 @pytest.mark.parametrize("check", [one for one in FIRSTS if one.slug not in GROWS], ids=lambda one: one.full_name)
 def test_a_script_in_python_says_right_of_what_is_right_and_wrong_of_what_is_wrong(check: Check) -> None:
-    if check.slug in UNSCRIPTED and not any(call_.due for call_ in question(check).calls):
+    long_model = (check.slug, check.function) == ("right-on-long-records", "identify")
+    if check.slug in UNSCRIPTED and not long_model and not any(call_.due for call_ in question(check).calls):
         with pytest.raises(InvalidData, match="no script of it"):
             script(check.full_name, FUNCTIONS, "python")
         return
@@ -324,7 +329,9 @@ def test_a_script_in_python_says_right_of_what_is_right_and_wrong_of_what_is_wro
     elif check.kind is Demand.MUST_HOLD and check.slug not in ("deterministic", "inputs-untouched"):
         function = getattr(reference, check.function)
         with contextlib.suppress(ValueError):  # where to refuse is an answer, ours does
-            code, said = executed(text, {check.function: lambda *given: spoilt(function(*given))})
+            # Of a long record whole numbers are asked, within a half.
+            wrong = spoilt_by_one if long_model else spoilt
+            code, said = executed(text, {check.function: lambda *given: wrong(function(*given))})
             refused = said.startswith("refused") and question(check).may_refuse
             assert code == int(not refused)
             assert refused or ("got" in said and "expected" in said)

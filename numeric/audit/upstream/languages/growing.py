@@ -83,7 +83,7 @@ def model_lines(check: Check) -> list[str]:
         "off = np.abs(markov(*found) - markov(A, B, C, D)).max()",
         f"failed = not off <= {growth.NEAREST!r}",
         "print('WRONG' if failed else 'right', '- D, C B, C A B, ...')",
-        f"print(f'  from whole numbers: got {{off:.2g}}, at most {growth.NEAREST}')",
+        f"print(f'  expected the whole numbers of the system, within {growth.NEAREST}; got what is off by {{off:.2g}}')",
     ]
 
 

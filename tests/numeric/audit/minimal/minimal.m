@@ -17,6 +17,7 @@ end
 function n_v = fault_dimension(r), ranks = window_ranks(r, 9);  n_v = ranks(9) - ranks(8); end
 function left = residual(y, u, A, B, C, D)
   finite(y, u, A, B, C, D);  if size(y, 1) ~= size(u, 1), error('unequal lengths'); end
+  if size(y, 2) ~= size(C, 1), error('more or fewer outputs than C has rows'); end
   x = zeros(size(A, 1), 1);  left = y;
   for k = 1:size(y, 1), left(k, :) = y(k, :) - (C * x + D * u(k, :)')';  x = A * x + B * u(k, :)'; end
 end

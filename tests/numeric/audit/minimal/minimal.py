@@ -45,6 +45,8 @@ def fault_dimension(r: Any) -> int:
 
 def residual(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
     _finite(y, u, A, B, C, D)
+    if y.shape[1] != len(C):
+        raise ValueError("more or fewer outputs than C has rows")
     x, left = np.zeros(len(A)), np.zeros(y.shape)
     for k in range(len(u) if len(u) == len(y) else -1):
         left[k] = y[k] - C @ x - D @ u[k]

@@ -66,16 +66,17 @@ def read_only(then: Witness, *arguments: Any) -> Witness:
 
 
 def leaves(read: Callable[[], Any], put_back: Callable[[], Any], *arguments: Any) -> Witness:
-    """Compare what `read` says before and after."""
+    """Compare what `read` says before and after, in an empty folder."""
 
     def witness(function: Function) -> float:
-        before = read()
-        function(*copies(arguments))
-        after = read()
-        if before == after:
-            return 0.0
-        put_back()
-        return np.inf
+        with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+            before = read()
+            function(*copies(arguments))
+            after = read()
+            if before == after:
+                return 0.0
+            put_back()
+            return np.inf
 
     return witness
 
