@@ -3,7 +3,7 @@
 How it is compared: The eigenvalues of the answer's A, each as [re, im]. Pair each true number with one of the
 answer's, so that none is used twice and the sum of distances is least; each is within its bound.
 
-Made by faultspace unknown: faultspace audit --reproduce 'consistent-under-coloured-fault[coloured]-identify'
+Made by faultspace 0.1.0: faultspace audit --reproduce 'consistent-under-coloured-fault[coloured]-identify'
 --language python
 """
 

@@ -3,8 +3,7 @@
 How it is compared: As many as there are true ones. Pair each true number with one of the answer's, so that
 none is used twice and the sum of distances is least; each is within its bound.
 
-Made by faultspace unknown: faultspace audit --reproduce 'finite-zeros[zeros-large]-structure' --language
-python
+Made by faultspace 0.1.0: faultspace audit --reproduce 'finite-zeros[zeros-large]-structure' --language python
 """
 
 import base64

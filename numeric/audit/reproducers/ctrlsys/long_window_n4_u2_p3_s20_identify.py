@@ -10,8 +10,7 @@ comparing in floats adds rounding, which is far below it. The eigenvalues of the
 Pair each true number with one of the answer's, so that none is used twice and the sum of distances is least;
 each is within its bound.
 
-Made by faultspace unknown: faultspace audit --reproduce 'long-window[n4-u2-p3-s20]-identify' --language
-python
+Made by faultspace 0.1.0: faultspace audit --reproduce 'long-window[n4-u2-p3-s20]-identify' --language python
 """
 
 import base64

@@ -10,7 +10,7 @@
 % Pair each true number with one of the answer's, so that none is used twice and the sum of distances is least;
 % each is within its bound.
 %
-% Made by faultspace unknown: faultspace audit --reproduce 'exact-recovery[n1-u2-p1]-identify' --language octave
+% Made by faultspace 0.1.0: faultspace audit --reproduce 'exact-recovery[n1-u2-p1]-identify' --language octave
 
 failed = false;
 % -- how ggleizer/fault_id: rank with the example's threshold 1 is called

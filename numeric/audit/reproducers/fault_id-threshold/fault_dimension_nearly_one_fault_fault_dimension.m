@@ -2,7 +2,7 @@
 %
 % How it is compared: The number is equal to the true one.
 %
-% Made by faultspace unknown: faultspace audit --reproduce 'fault-dimension[nearly-one-fault]-fault_dimension'
+% Made by faultspace 0.1.0: faultspace audit --reproduce 'fault-dimension[nearly-one-fault]-fault_dimension'
 % --language octave
 
 failed = false;

@@ -4,8 +4,7 @@
 % sine of the largest angle between the two, from either side, is within the bound; spaces of unlike dimensions
 % have the sine 1.
 %
-% Made by faultspace unknown: faultspace audit --reproduce 'fault-space[bad-units]-fault_space' --language
-% octave
+% Made by faultspace 0.1.0: faultspace audit --reproduce 'fault-space[bad-units]-fault_space' --language octave
 
 failed = false;
 % -- how ggleizer/fault_id: rank with the example's threshold 1 is called

@@ -2,8 +2,8 @@
 %
 % How it is compared: No answer is right. The function raises an error or answers nothing. It must be refused.
 %
-% Made by faultspace unknown: faultspace audit --reproduce 'refuses-window-at-the-lag[same-output-
-% twice]-identify' --language octave
+% Made by faultspace 0.1.0: faultspace audit --reproduce 'refuses-window-at-the-lag[same-output-twice]-identify'
+% --language octave
 
 failed = false;
 % -- how ggleizer/fault_id: rank with the example's threshold 1 is called

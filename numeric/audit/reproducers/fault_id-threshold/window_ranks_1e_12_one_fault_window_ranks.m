@@ -2,8 +2,8 @@
 %
 % How it is compared: All ranks are equal to the true ones.
 %
-% Made by faultspace unknown: faultspace audit --reproduce 'window-ranks-1e-12[one-fault]-window_ranks'
-% --language octave
+% Made by faultspace 0.1.0: faultspace audit --reproduce 'window-ranks-1e-12[one-fault]-window_ranks' --language
+% octave
 
 failed = false;
 % -- how ggleizer/fault_id: rank with the example's threshold 1 is called

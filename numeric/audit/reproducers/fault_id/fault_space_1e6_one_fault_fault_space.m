@@ -4,7 +4,7 @@
 % sine of the largest angle between the two, from either side, is within the bound; spaces of unlike dimensions
 % have the sine 1.
 %
-% Made by faultspace unknown: faultspace audit --reproduce 'fault-space-1e6[one-fault]-fault_space' --language
+% Made by faultspace 0.1.0: faultspace audit --reproduce 'fault-space-1e6[one-fault]-fault_space' --language
 % octave
 
 failed = false;

@@ -10,8 +10,7 @@
 % Pair each true number with one of the answer's, so that none is used twice and the sum of distances is least;
 % each is within its bound.
 %
-% Made by faultspace unknown: faultspace audit --reproduce 'long-window[n4-u2-p3-s20]-identify' --language
-% octave
+% Made by faultspace 0.1.0: faultspace audit --reproduce 'long-window[n4-u2-p3-s20]-identify' --language octave
 
 failed = false;
 % -- how ggleizer/fault_id: PI-MOESP; rank and threshold of its exact example is called

@@ -2,8 +2,8 @@
 %
 % How it is compared: No answer is right. The function raises an error or answers nothing. It must be refused.
 %
-% Made by faultspace unknown: faultspace audit --reproduce 'refuses-pure-noise[two-faults]-fault_space'
-% --language octave
+% Made by faultspace 0.1.0: faultspace audit --reproduce 'refuses-pure-noise[two-faults]-fault_space' --language
+% octave
 
 failed = false;
 % -- how ggleizer/fault_id: PI-MOESP; rank and threshold of its exact example is called

@@ -2,7 +2,7 @@
 %
 % How it is compared: All ranks are equal to the true ones.
 %
-% Made by faultspace unknown: faultspace audit --reproduce 'window-ranks[worst-units]-window_ranks' --language
+% Made by faultspace 0.1.0: faultspace audit --reproduce 'window-ranks[worst-units]-window_ranks' --language
 % octave
 
 failed = false;

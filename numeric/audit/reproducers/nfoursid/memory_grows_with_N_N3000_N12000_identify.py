@@ -6,8 +6,8 @@ floor N1 / N2)) / log(N2 / N1) is within the bound, or c2 is below the floor. Ti
 measured once more at twice the length, since data may outgrow a cache between two lengths, and the smaller
 exponent counts.
 
-Made by faultspace unknown: faultspace audit --reproduce 'memory-grows-with-N[N3000-N12000]-identify'
---language python
+Made by faultspace 0.1.0: faultspace audit --reproduce 'memory-grows-with-N[N3000-N12000]-identify' --language
+python
 """
 
 import base64

@@ -10,7 +10,7 @@
 % Pair each true number with one of the answer's, so that none is used twice and the sum of distances is least;
 % each is within its bound.
 %
-% Made by faultspace unknown: faultspace audit --reproduce 'far-units[n2-u3-p2]-identify' --language octave
+% Made by faultspace 0.1.0: faultspace audit --reproduce 'far-units[n2-u3-p2]-identify' --language octave
 
 failed = false;
 % -- how Octave's control (SLICOT): moesp; zero is called
@@ -32,7 +32,8 @@ function a = structure(q)
   a.normal_rank = info.rank;
   a.finite_zeros = num2cell([real(z(:)) imag(z(:))], 2)';
   a.infinite_zero_orders = [zeros(1, info.rank - numel(infinite)) infinite];
-  a.left_invertible = info.rank == columns(q.F);
+  % G has a row an output; F has none where there are no states, and then no columns in JSON.
+  a.left_invertible = info.rank == columns(q.G);
 end
 
 function [A_, B_, C_, D_] = identify(y, u, order, block_rows)

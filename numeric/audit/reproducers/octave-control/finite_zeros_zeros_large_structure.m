@@ -3,8 +3,7 @@
 % How it is compared: As many as there are true ones. Pair each true number with one of the answer's, so that
 % none is used twice and the sum of distances is least; each is within its bound.
 %
-% Made by faultspace unknown: faultspace audit --reproduce 'finite-zeros[zeros-large]-structure' --language
-% octave
+% Made by faultspace 0.1.0: faultspace audit --reproduce 'finite-zeros[zeros-large]-structure' --language octave
 
 failed = false;
 % -- how Octave's control (SLICOT): moesp; zero is called
@@ -26,7 +25,8 @@ function a = asked_structure(q)
   a.normal_rank = info.rank;
   a.finite_zeros = num2cell([real(z(:)) imag(z(:))], 2)';
   a.infinite_zero_orders = [zeros(1, info.rank - numel(infinite)) infinite];
-  a.left_invertible = info.rank == columns(q.F);
+  % G has a row an output; F has none where there are no states, and then no columns in JSON.
+  a.left_invertible = info.rank == columns(q.G);
 end
 
 function answer = structure(A, F, C, G)

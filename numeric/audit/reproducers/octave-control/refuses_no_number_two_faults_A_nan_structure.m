@@ -2,7 +2,7 @@
 %
 % How it is compared: No answer is right. The function raises an error or answers nothing. It must be refused.
 %
-% Made by faultspace unknown: faultspace audit --reproduce 'refuses-no-number[two-faults-A-nan]-structure'
+% Made by faultspace 0.1.0: faultspace audit --reproduce 'refuses-no-number[two-faults-A-nan]-structure'
 % --language octave
 
 failed = false;
@@ -25,7 +25,8 @@ function a = asked_structure(q)
   a.normal_rank = info.rank;
   a.finite_zeros = num2cell([real(z(:)) imag(z(:))], 2)';
   a.infinite_zero_orders = [zeros(1, info.rank - numel(infinite)) infinite];
-  a.left_invertible = info.rank == columns(q.F);
+  % G has a row an output; F has none where there are no states, and then no columns in JSON.
+  a.left_invertible = info.rank == columns(q.G);
 end
 
 function answer = structure(A, F, C, G)

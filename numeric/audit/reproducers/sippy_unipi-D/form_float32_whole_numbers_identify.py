@@ -10,7 +10,7 @@ comparing in floats adds rounding, which is far below it. The eigenvalues of the
 Pair each true number with one of the answer's, so that none is used twice and the sum of distances is least;
 each is within its bound. To refuse is an answer here, too: what cannot be told may stay untold.
 
-Made by faultspace unknown: faultspace audit --reproduce 'form-float32[whole-numbers]-identify' --language
+Made by faultspace 0.1.0: faultspace audit --reproduce 'form-float32[whole-numbers]-identify' --language
 python
 """
 

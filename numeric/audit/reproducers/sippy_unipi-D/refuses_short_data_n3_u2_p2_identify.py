@@ -2,7 +2,7 @@
 
 How it is compared: No answer is right. The function raises an error or answers nothing. It must be refused.
 
-Made by faultspace unknown: faultspace audit --reproduce 'refuses-short-data[n3-u2-p2]-identify' --language
+Made by faultspace 0.1.0: faultspace audit --reproduce 'refuses-short-data[n3-u2-p2]-identify' --language
 python
 """
 

@@ -2,8 +2,8 @@
 
 How it is compared: No answer is right. The function raises an error or answers nothing. It must be refused.
 
-Made by faultspace unknown: faultspace audit --reproduce 'refuses-misfit[n3-u2-p2-y-turned]-identify'
---language python
+Made by faultspace 0.1.0: faultspace audit --reproduce 'refuses-misfit[n3-u2-p2-y-turned]-identify' --language
+python
 """
 
 import base64

@@ -3,7 +3,7 @@
 How it is compared: On a record of the length given, made by signs through the system, the answer differs from
 the true one by no more than half of a unit in each quantity named.
 
-Made by faultspace unknown: faultspace audit --reproduce 'right-on-long-records[N12000]-identify' --language
+Made by faultspace 0.1.0: faultspace audit --reproduce 'right-on-long-records[N12000]-identify' --language
 python
 """
 
@@ -107,5 +107,5 @@ found = [np.asarray(one, dtype=float) for one in identify(record, signs, 3, 4)]
 off = np.abs(markov(*found) - markov(A, B, C, D)).max()
 failed = not off <= 0.5
 print('WRONG' if failed else 'right', '- D, C B, C A B, ...')
-print(f'  from whole numbers: got {off:.2g}, at most 0.5')
+print(f'  expected the whole numbers of the system, within 0.5; got what is off by {off:.2g}')
 sys.exit(1 if failed else 0)

@@ -2,7 +2,7 @@
 
 How it is compared: The number is equal to the true one. It is true or false as it is to be.
 
-Made by faultspace unknown: faultspace audit --reproduce 'normal-rank[six-by-six]-structure' --language python
+Made by faultspace 0.1.0: faultspace audit --reproduce 'normal-rank[six-by-six]-structure' --language python
 """
 
 import base64

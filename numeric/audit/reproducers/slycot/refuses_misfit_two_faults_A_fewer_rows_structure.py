@@ -2,7 +2,7 @@
 
 How it is compared: No answer is right. The function raises an error or answers nothing. It must be refused.
 
-Made by faultspace unknown: faultspace audit --reproduce 'refuses-misfit[two-faults-A-fewer-rows]-structure'
+Made by faultspace 0.1.0: faultspace audit --reproduce 'refuses-misfit[two-faults-A-fewer-rows]-structure'
 --language python
 """
 
