@@ -10,6 +10,8 @@ import copy
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from ..records import Function, Refused
 
 
@@ -30,7 +32,7 @@ class Recorder:
         self.calls: list[Call] = []
 
     def __call__(self, *arguments: Any) -> Any:
-        kept = tuple(copy.deepcopy(one) for one in arguments)
+        kept = tuple(map(_as_given, arguments))
         try:
             answer = self._function(*arguments)
         except Refused as refusal:
@@ -38,6 +40,14 @@ class Recorder:
             raise
         self.calls.append(Call(kept, _kept(answer)))
         return answer
+
+
+def _as_given(argument: Any) -> Any:
+    """Return a copy, read-only where the argument is: a copy forgets that."""
+    found = copy.deepcopy(argument)
+    if isinstance(argument, np.ndarray):
+        found.flags.writeable = argument.flags.writeable
+    return found
 
 
 def _kept(answer: Any) -> Any:

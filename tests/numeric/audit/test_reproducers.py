@@ -94,4 +94,4 @@ def test_a_script_shows_its_failure(file: Path) -> None:
     if file.parent.name == "ctrlsys" and "unequal_lengths" in file.name and ran.returncode == 0:
         pytest.xfail("it reads what lies behind the shorter array in memory: what it makes of that differs from run to run")
     assert ran.returncode != 0, ran.stdout
-    assert "WRONG" in ran.stdout or "Error" in ran.stderr or "error" in ran.stderr or "invalid" in ran.stderr
+    assert "WRONG" in ran.stdout + ran.stderr or "Error" in ran.stderr or "error" in ran.stderr or "invalid" in ran.stderr

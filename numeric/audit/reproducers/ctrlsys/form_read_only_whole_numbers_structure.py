@@ -118,15 +118,19 @@ def structure(A: Array, F: Array, C: Array, G: Array) -> ZeroStructure:
 A = np.array([
     [0.0, -1.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]
 ])
+A.setflags(write=False)
 F = np.array([
     [-2.0], [-2.0], [1.0]
 ])
+F.setflags(write=False)
 C = np.array([
     [-1.0, -2.0, -2.0], [-1.0, -2.0, -2.0], [2.0, 1.0, -1.0]
 ])
+C.setflags(write=False)
 G = np.array([
     [-2.0], [2.0], [1.0]
 ])
+G.setflags(write=False)
 
 try:
     answer = structure(A, F, C, G)

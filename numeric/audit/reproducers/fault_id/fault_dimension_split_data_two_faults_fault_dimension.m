@@ -97,6 +97,8 @@ r = [
 try
   answer = fault_dimension(r);
 catch problem
+  crashes = {'Octave:index-out-of-bounds', 'Octave:bad-index', 'Octave:undefined-function', 'MATLAB:badsubscript', 'MATLAB:UndefinedFunction'};
+  if any(strcmp(problem.identifier, crashes)), fprintf('WRONG: a crash: %s\n', problem.message); exit(1); end
   fprintf('refused: %s\nWRONG: an answer is due\n', problem.message); exit(1);
 end
 
@@ -164,6 +166,8 @@ r = [
 try
   answer = fault_dimension(r);
 catch problem
+  crashes = {'Octave:index-out-of-bounds', 'Octave:bad-index', 'Octave:undefined-function', 'MATLAB:badsubscript', 'MATLAB:UndefinedFunction'};
+  if any(strcmp(problem.identifier, crashes)), fprintf('WRONG: a crash: %s\n', problem.message); exit(1); end
   fprintf('refused: %s\nWRONG: an answer is due\n', problem.message); exit(1);
 end
 

@@ -216,6 +216,8 @@ block_rows = 5;
 try
   [A_, B_, C_, D_] = identify(y, u, order, block_rows);
 catch problem
+  crashes = {'Octave:index-out-of-bounds', 'Octave:bad-index', 'Octave:undefined-function', 'MATLAB:badsubscript', 'MATLAB:UndefinedFunction'};
+  if any(strcmp(problem.identifier, crashes)), fprintf('WRONG: a crash: %s\n', problem.message); exit(1); end
   fprintf('refused: %s\nright: there is nothing to answer\n', problem.message); exit(0);
 end
 

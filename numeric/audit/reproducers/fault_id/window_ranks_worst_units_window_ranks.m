@@ -143,6 +143,8 @@ windows = 5;
 try
   answer = window_ranks(r, windows);
 catch problem
+  crashes = {'Octave:index-out-of-bounds', 'Octave:bad-index', 'Octave:undefined-function', 'MATLAB:badsubscript', 'MATLAB:UndefinedFunction'};
+  if any(strcmp(problem.identifier, crashes)), fprintf('WRONG: a crash: %s\n', problem.message); exit(1); end
   fprintf('refused: %s\nWRONG: an answer is due\n', problem.message); exit(1);
 end
 

@@ -211,6 +211,8 @@ block_rows = 4;
 try
   [A_, B_, C_, D_] = identify(y, u, order, block_rows);
 catch problem
+  crashes = {'Octave:index-out-of-bounds', 'Octave:bad-index', 'Octave:undefined-function', 'MATLAB:badsubscript', 'MATLAB:UndefinedFunction'};
+  if any(strcmp(problem.identifier, crashes)), fprintf('WRONG: a crash: %s\n', problem.message); exit(1); end
   fprintf('refused: %s\nWRONG: an answer is due\n', problem.message); exit(1);
 end
 

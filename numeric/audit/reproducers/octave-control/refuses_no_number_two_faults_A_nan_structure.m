@@ -58,6 +58,8 @@ G = [
 try
   answer = structure(A, F, C, G);
 catch problem
+  crashes = {'Octave:index-out-of-bounds', 'Octave:bad-index', 'Octave:undefined-function', 'MATLAB:badsubscript', 'MATLAB:UndefinedFunction'};
+  if any(strcmp(problem.identifier, crashes)), fprintf('WRONG: a crash: %s\n', problem.message); exit(1); end
   fprintf('refused: %s\nright: there is nothing to answer\n', problem.message); exit(0);
 end
 

@@ -17,6 +17,14 @@ ANSWERS = {
     "identify": "[A_, B_, C_, D_]",
     "identified_fault_space": "[A_, C_, Z_]",
 }
+# What is no refusal: a wrong index or an unknown name within the function, in Octave's words and in MATLAB's.
+CRASHES = (
+    "Octave:index-out-of-bounds",
+    "Octave:bad-index",
+    "Octave:undefined-function",
+    "MATLAB:badsubscript",
+    "MATLAB:UndefinedFunction",
+)
 NEAREST = [
     "left = got(:); got = expected; off = inf;",
     "if numel(left) == numel(expected)",
@@ -93,6 +101,8 @@ class Matrices:
             "try",
             f"  {ANSWERS.get(function, 'answer')} = {function}({', '.join(arguments)});",
             "catch problem",
+            f"  crashes = {{{', '.join(map(repr, CRASHES))}}};",
+            "  if any(strcmp(problem.identifier, crashes)), fprintf('WRONG: a crash: %s\\n', problem.message); exit(1); end",
             f"  fprintf('refused: %s\\n{words}\\n', problem.message); exit({int(not refusal)});",
             "end",
         ]
