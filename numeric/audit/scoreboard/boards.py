@@ -28,9 +28,9 @@ from .records import Audited, Board, Tally
 
 
 def tallies(results: Iterable[CheckResult]) -> tuple[Tally, ...]:
-    """There is one for each slug and function, in the order of the results."""
+    """There is one for each slug and function, in the order of the results, of what was promised."""
     found = []
-    for group in grouped(one for one in results if one.verdict != Status.NOT_OFFERED):
+    for group in grouped(one for one in results if one.verdict != Status.NOT_OFFERED and not one.not_promised):
         failed = [one for one in group if one.failed]
         worst = failed[0] if failed else max(group, key=lambda one: one.ratio or 0.0)
         numbers = [None if x is None else (str(x) if abs(x) == inf else float(f"{x:.2g}")) for x in (worst.got, worst.bound)]

@@ -101,6 +101,15 @@ def test_what_an_answer_lacks_is_not_asked() -> None:
     assert {one.slug for one in tallies(records)} == {"finite-zeros"}
 
 
+def test_what_was_never_promised_is_not_counted() -> None:
+    one_fault = SimpleNamespace(fault_dimension=lambda r: 1, NOT_PROMISED={"fault-dimension/two-faults": "one fault only"})
+    whole, promised = (
+        next(one for one in tallies(audit(mine, only=["fault-dimension"])) if one.slug == "fault-dimension")
+        for mine in (SimpleNamespace(fault_dimension=one_fault.fault_dimension), one_fault)
+    )
+    assert (promised.asked, promised.failed) == (whole.asked - 1, whole.failed - 1)
+
+
 def test_a_new_entry_takes_the_place_of_the_old_one() -> None:
     def entry(name: str, seconds: float) -> Audited:
         return Audited(name, "", "1", "", seconds, ())
