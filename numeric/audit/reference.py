@@ -20,7 +20,7 @@ from ..model.past_inputs import UNDETERMINED, pi_moesp
 from ..model.residuals import residual as subtract
 from ..pipeline import identify as identified
 from ..signal.reconstruction import reconstruct_fault
-from ..signal.zeros import fault_zeros
+from ..signal.zeros import fault_zeros, in_equal_units
 from ..space.by_ranks import fault_space as space
 from .adapter import ZeroStructure
 
@@ -69,15 +69,10 @@ def reconstruct(r: Array, A: Array, F: Array, C: Array, G: Array, x0: Array) -> 
 
 
 def structure(A: Array, F: Array, C: Array, G: Array) -> ZeroStructure:
-    """The orders of infinite zeros are from #{order <= k} = rank T_(k+1) - rank T_k; the finite zeros are those of the pencil, which our
-    function takes in balanced units: neither those of faults nor those of outputs change an answer."""
+    """The orders of infinite zeros are from #{order <= k} = rank T_(k+1) - rank T_k; the finite zeros are those of the pencil."""
     if not all(np.all(np.isfinite(matrix)) for matrix in (A, F, C, G)):
         raise InvalidData("A, F, C, G: got entries that are NaN or infinite")
-    faults = _units(np.vstack([F, G]))
-    F, G = F / faults, G / faults
-    outputs = _units(np.hstack([C, G]).T)[:, None]
-    C, G = C / outputs, G / outputs
-    orders = _infinite_zero_orders(A, F, C, G)
+    orders = _infinite_zero_orders(A, *in_equal_units(F, C, G))
     found = fault_zeros(A, F, C, G)
     return ZeroStructure(len(orders), [complex(z) for z in found.zeros], orders, len(orders) == F.shape[1])
 
@@ -108,12 +103,6 @@ def _infinite_zero_orders(A: Array, F: Array, C: Array, G: Array) -> list[int]:
         orders += [k] * (rank - before - len(orders))
         before = rank
     return orders
-
-
-def _units(columns: Array) -> Array:
-    """Return for each column the power of two next to its size, by which division is exact; 1 for a column that is zero."""
-    sizes = np.linalg.norm(columns, axis=0)
-    return np.exp2(np.round(np.log2(np.where(sizes > 0, sizes, 1.0))))
 
 
 def _rank(matrix: Array) -> int:

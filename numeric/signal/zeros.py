@@ -5,6 +5,7 @@
     finite_zeros          the roots of the invariant polynomials of the pencil [[qI - A, -F], [C, G]], left-invertible or
                           not. Where F = G = 0, and where there is no fault, they are the eigenvalues of A that C does
                           not show, though the transfer function, which is zero, has no zeros
+    in_equal_units        F, C, G with faults and outputs in units in which they are of one size
     output_nulling        V*, the states from which some v keeps the residual zero for ever; where the system is
                           left-invertible its dimension counts the finite zeros
     delay, state known    least l such that r(0..l) determines v(0) when x(0) is known [SM69]
@@ -38,12 +39,32 @@ class FaultZeros:
 
 
 def fault_zeros(A: Array, F: Array, C: Array, G: Array) -> FaultZeros:
-    """Find the zeros and delays of A (n, n), F (n, m), C (p, n), G (p, m), which should be of comparable size (balanced units)."""
+    """Find the zeros and delays of A (n, n), F (n, m), C (p, n), G (p, m), in any units of faults and outputs.
+
+    The states should be of comparable size.
+    """
+    F, C, G = in_equal_units(F, C, G)
     zeros = finite_zeros(A, F, C, G)
     known = _delay(A, F, C, G, state_known=True)
     if known is None:
         return FaultZeros(zeros, False, None, None)
     return FaultZeros(zeros, True, known, _delay(A, F, C, G, state_known=False))
+
+
+def in_equal_units(F: Array, C: Array, G: Array) -> tuple[Array, Array, Array]:
+    """Return F (n, m), C (p, n), G (p, m) with each fault's column of [F; G], then each output's row of [C G], divided by the power of two
+    next to its size, so that nothing is rounded. No zero, delay or rank changes with the units; floats tell ranks of what is of one size.
+    """
+    faults = _units(np.vstack([F, G]))
+    F, G = F / faults, G / faults
+    outputs = _units(np.hstack([C, G]).T)[:, None]
+    return F, C / outputs, G / outputs
+
+
+def _units(columns: Array) -> Array:
+    """Return for each column the power of two next to its size; 1 for a column that is zero."""
+    sizes = np.linalg.norm(columns, axis=0)
+    return np.asarray(np.exp2(np.round(np.log2(np.where(sizes > 0, sizes, 1.0)))))
 
 
 def finite_zeros(A: Array, F: Array, C: Array, G: Array) -> NDArray[np.complex128]:

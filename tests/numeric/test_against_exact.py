@@ -21,6 +21,7 @@ from faultspace.exact.structure.kernel_rows import KernelRepresentation, kernel_
 from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.signals import excitation_matrix, simulate
 from faultspace.exact.system.systems import ResidualSystem, read_system
+from faultspace.numeric.audit.vectors.shipped_vectors import StructureVector, shipped
 from faultspace.numeric.signal.reconstruction import reconstruct_fault
 from faultspace.numeric.signal.zeros import fault_zeros
 from faultspace.numeric.space.by_ranks import fault_space
@@ -227,3 +228,15 @@ def test_the_papers_example() -> None:
         found = fault_space(r, example.A, example.C, block_rows=s)
         assert found.n_z == exact_fault_space(kernel, s).dimension == (5 if s < 3 else 2)
         assert found.lag == kernel.lag == 2
+
+
+@pytest.mark.parametrize("vector", shipped("structure"), ids=lambda vector: vector.slug)
+def test_zeros_and_delays_are_the_same_in_other_units(vector: StructureVector) -> None:
+    A, F, C, G = (floats(M) for M in (vector.system.A, vector.system.F, vector.system.C, vector.system.G))
+    faults, outputs = 2.0 ** np.arange(-30, -30 + F.shape[1]), 2.0 ** (-25 + 20 * (np.arange(len(C)) % 3))[:, None]
+    plain, other = fault_zeros(A, F, C, G), fault_zeros(A, F * faults, C * outputs, G * faults * outputs)
+    assert other.left_invertible == plain.left_invertible == vector.left_invertible
+    assert (other.delay_known_state, other.delay_unknown_state) == (plain.delay_known_state, plain.delay_unknown_state)
+    assert np.allclose(other.zeros, plain.zeros, rtol=1e-7, atol=1e-9)
+    if vector.left_invertible:
+        assert len(plain.zeros) == len(vector.zeros)
