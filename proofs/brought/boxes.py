@@ -133,6 +133,30 @@ def _level(box: Box, sizes: tuple[int, int, int], entries: list[Fraction], level
             yield Stretch(Batch(A, F, C, G, box.prime, scale), np.concatenate(places), np.concatenate(weights))
 
 
+@dataclass
+class Share:
+    """How much of the systems of some sizes one process went through; `whole` where that is all of its share."""
+
+    systems: int = 0
+    looked_at: int = 0
+    whole: bool = True
+
+    def stretches(self, box: Box, sizes: tuple[int, int, int], left: int, mine: int, of: int, *, reduced: bool) -> Iterator[tuple[int, Stretch]]:
+        """Yield every `of`th stretch with its number, from number `mine` on, until `left` systems are counted."""
+        try:
+            for number, stretch in enumerate(stretches(box, sizes, reduced=reduced)):
+                if number % of != mine:
+                    continue
+                if self.systems >= left:
+                    self.whole = False
+                    break
+                self.systems += int(stretch.weights.sum())
+                self.looked_at += len(stretch.batch)
+                yield number, stretch
+        except OverflowError:
+            self.whole = False
+
+
 def _portions(every: Integers, stabilizers: NDArray[np.bool_], size: Callable[[NDArray[np.bool_]], int]) -> Iterator[list[int]]:
     """Yield the numbers of neighbouring matrices A with together some AT_ONCE systems."""
     portion: list[int] = []

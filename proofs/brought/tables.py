@@ -32,7 +32,7 @@ from ..language.nodes import Node
 from ..language.nodes import Undefined as NoValue
 from ..quantities.batches import Batch
 from ..quantities.elimination import Integers
-from .boxes import Box, Stretch, stretches
+from .boxes import Box, Share, Stretch
 from .known_systems import ADVERSARY, CORPUS, known_systems
 from .trying import WORTH_SHARING, Undefined, must_have_a_value
 
@@ -96,14 +96,11 @@ class _Asked:
 
 
 @dataclass
-class _Part:
+class _Part(Share):
     """What one process found in its share of the systems of some sizes."""
 
     rows: dict[Values, Row] = field(default_factory=dict)
     undefined: tuple[Place, Undefined] | None = None
-    systems: int = 0
-    looked_at: int = 0
-    whole: bool = True
     answers: dict[object, Answers] = field(default_factory=dict)
 
 
@@ -166,25 +163,15 @@ def _share(asked: _Asked, number: int, left: int, jobs: int, tell: Callable[[int
 def _of_sizes(asked: _Asked, number: int, left: int, mine: int, of: int, tell: Callable[[int], None] | None) -> _Part:
     """Go through every `of`th stretch of the systems of the sizes with this number, from number `mine` on."""
     part = _Part()
-    try:
-        for k, stretch in enumerate(stretches(asked.box, asked.box.sizes()[number], reduced=asked.reduced)):
-            if k % of != mine:
-                continue
-            if tell is not None:
-                tell(part.systems)
-            if part.systems >= left:
-                part.whole = False
-                break
-            part.systems += int(stretch.weights.sum())
-            part.looked_at += len(stretch.batch)
-            try:
-                _add_stretch(part, (number, k), stretch, asked.hypotheses, asked.columns)
-            except UndefinedAt as error:
-                place = (number, k, int(stretch.places[error.index]))
-                part.undefined = place, Undefined(str(error), stretch.batch.system(error.index))
-                break
-    except OverflowError:
-        part.whole = False
+    for k, stretch in part.stretches(asked.box, asked.box.sizes()[number], left, mine, of, reduced=asked.reduced):
+        try:
+            _add_stretch(part, (number, k), stretch, asked.hypotheses, asked.columns)
+        except UndefinedAt as error:
+            place = (number, k, int(stretch.places[error.index]))
+            part.undefined = place, Undefined(str(error), stretch.batch.system(error.index))
+            break
+        if tell is not None:
+            tell(part.systems)
     part.answers.clear()
     return part
 

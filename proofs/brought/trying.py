@@ -23,7 +23,7 @@ from ...exact.system.systems import ResidualSystem
 from ..language.by_batches import Table, UndefinedAt, true_of
 from ..language.invariance import invariant
 from ..language.nodes import Node
-from .boxes import Box, Stretch, stretches
+from .boxes import Box, Share, Stretch
 
 WORTH_SHARING = 10**6
 
@@ -70,14 +70,11 @@ class Searched:
 
 
 @dataclass
-class _Part:
+class _Part(Share):
     """What one process found in its share of the systems of some sizes: of each question, place and system of the first that fails."""
 
-    met: list[int]
-    first: list[tuple[tuple[int, int], ResidualSystem | Undefined] | None]
-    systems: int = 0
-    looked_at: int = 0
-    whole: bool = True
+    met: list[int] = field(default_factory=list)
+    first: list[tuple[tuple[int, int], ResidualSystem | Undefined] | None] = field(default_factory=list)
     tables: dict[Node, Table] = field(default_factory=dict)
 
 
@@ -124,23 +121,13 @@ def _share(box: Box, sizes: tuple[int, int, int], asked: list[Question], left: i
 
 def _search(box: Box, sizes: tuple[int, int, int], asked: list[Question], left: int, mine: int, of: int, *, reduced: bool) -> _Part:
     """Try every `of`th stretch of the systems of these sizes, from number `mine` on."""
-    part = _Part([0] * len(asked), [None] * len(asked))
-    try:
-        for number, stretch in enumerate(stretches(box, sizes, reduced=reduced)):
-            if number % of != mine:
-                continue
-            if all(part.first):
-                break
-            if part.systems >= left:
-                part.whole = False
-                break
-            part.systems += int(stretch.weights.sum())
-            part.looked_at += len(stretch.batch)
-            for k, question in enumerate(asked):
-                if part.first[k] is None:
-                    _ask(question, k, number, stretch, part)
-    except OverflowError:
-        part.whole = False
+    part = _Part(met=[0] * len(asked), first=[None] * len(asked))
+    for number, stretch in part.stretches(box, sizes, left, mine, of, reduced=reduced):
+        for k, question in enumerate(asked):
+            if part.first[k] is None:
+                _ask(question, k, number, stretch, part)
+        if all(part.first):
+            break
     part.tables.clear()
     return part
 
