@@ -141,7 +141,9 @@ class Share:
     looked_at: int = 0
     whole: bool = True
 
-    def stretches(self, box: Box, sizes: tuple[int, int, int], left: int, mine: int, of: int, *, reduced: bool) -> Iterator[tuple[int, Stretch]]:
+    def stretches(
+        self, box: Box, sizes: tuple[int, int, int], left: int, mine: int, of: int, *, reduced: bool
+    ) -> Iterator[tuple[int, Stretch]]:
         """Yield every `of`th stretch with its number, from number `mine` on, until `left` systems are counted."""
         try:
             for number, stretch in enumerate(stretches(box, sizes, reduced=reduced)):
