@@ -64,9 +64,12 @@ def audit(
         typer.Option(metavar="DIR", help="Write the checks as JSON for use without faultspace, and ask none.", show_default=False),
     ] = None,
     timeout: Annotated[
-        float, typer.Option(metavar="SECONDS", parser=number(float, 0.1, 60), help="How long a check, with --exec an answer, may take.")
+        float,
+        typer.Option(metavar="SECONDS", parser=number(float, 0.1, 60, 1e7), help="How long a check, with --exec an answer, may take."),
     ] = 60.0,
-    memory: Annotated[float, typer.Option(metavar="GIB", parser=number(float, 0.5, 4), help="How much memory a check may take.")] = 4.0,
+    memory: Annotated[
+        float, typer.Option(metavar="GIB", parser=number(float, 0.5, 4, 1e6), help="How much memory a check may take.")
+    ] = 4.0,
     quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print a line a cause, and the count.")] = False,
     verbose: Annotated[int, typer.Option("-v", "--verbose", count=True, help="Print a row a slug, too; -vv: a row a check.")] = 0,
     json: Json = False,

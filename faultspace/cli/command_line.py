@@ -22,7 +22,7 @@ from ..base.errors import InvalidInput
 from ..base.messages import say
 from .audit_command import audit
 from .failures import BAD_INPUT, INTERRUPTED, asks_report, guarded
-from .option_types import Effort, Expected, Floats, Json, OneSystem, Plain, Verbose, in_our_words, number
+from .option_types import Effort, Expected, Floats, Json, OneSystem, Plain, Verbose, in_our_words, jobs_number, number
 
 Given = ParamSpec("Given")
 
@@ -49,12 +49,16 @@ def parser() -> Any:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line (`sys.argv` when no arguments are given) and return the exit code. It never raises for bad input."""
+    unheard = sys.stdout is None
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
         if stream is None:  # closed by the caller; the replacement lives as long as the process
             setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
         elif hasattr(stream, "reconfigure"):  # what the terminal's encoding lacks is shown escaped
             stream.reconfigure(errors="backslashreplace")
+    if unheard:  # before any long computation, whose answer nobody would see
+        say("standard output: is closed, expected one that takes the answer")
+        return BAD_INPUT
     try:
         given = list(sys.argv[1:] if arguments is None else arguments)
         code = parser()(args=given, prog_name="faultspace", standalone_mode=False)
@@ -108,7 +112,7 @@ def verify(
         list[str] | None, typer.Option("--claim", metavar="ID", help="Only this claim, a page of it; may be repeated.")
     ] = None,
     jobs: Annotated[
-        int | None, typer.Option(metavar="K", parser=number(int, 1, 2), help="Processes at a time.", show_default="all cores")
+        int | None, typer.Option(metavar="K", parser=jobs_number, help="Processes at a time.", show_default="all cores")
     ] = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the headline certificates and verdicts.json there.")] = None,
     recheck: Annotated[
@@ -158,7 +162,7 @@ def claim(
         int | None,
         typer.Option(metavar="K", parser=number(int, 1, 10**9), help="Go through no more systems of a box.", show_default="10^9"),
     ] = None,
-    jobs: Annotated[int, typer.Option(metavar="K", parser=number(int, 1, 2), help="Processes at a time, for large boxes.")] = 1,
+    jobs: Annotated[int, typer.Option(metavar="K", parser=jobs_number, help="Processes at a time, for large boxes.")] = 1,
     explain: Annotated[
         str | None, typer.Option(metavar="SYSTEM", help="Tell what each part of the claims is on this system, instead.", show_default=False)
     ] = None,
@@ -208,7 +212,7 @@ def conjecture(
         int | None,
         typer.Option(metavar="K", parser=number(int, 1, 10**9), help="Go through no more systems of the box.", show_default="10^9"),
     ] = None,
-    jobs: Annotated[int, typer.Option(metavar="K", parser=number(int, 1, 2), help="Processes at a time, for large boxes.")] = 1,
+    jobs: Annotated[int, typer.Option(metavar="K", parser=jobs_number, help="Processes at a time, for large boxes.")] = 1,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the certificates there.", show_default=False)] = None,
     json: Json = False,
 ) -> int:
@@ -449,7 +453,7 @@ def monte_carlo(
     samples: Annotated[int, typer.Option(metavar="K", parser=number(int, 1, 1001), help="Samples of each record.")] = 1001,
     jobs: Annotated[
         int | None,
-        typer.Option(metavar="K", parser=number(int, 1, 2), help="Processes at a time.", show_default="as many cores as are worth it"),
+        typer.Option(metavar="K", parser=jobs_number, help="Processes at a time.", show_default="as many cores as are worth it"),
     ] = None,
     dask: Annotated[str | None, typer.Option(metavar="ADDRESS", help="Work on the Dask cluster with this scheduler instead.")] = None,
     seed: Annotated[

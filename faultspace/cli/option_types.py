@@ -2,7 +2,8 @@
 
 Effort, Expected     the words that an option can be
 Plain                a command whose help shows its arguments as they are typed
-number               the parser of a number from a least one on
+number               the parser of a number from a least one on, up to a largest one
+jobs_number          the parser of a number of processes
 in_our_words         a complaint about options as all complaints about input are
 Json, Verbose, Floats, OneSystem   options and an argument that several commands have
 """
@@ -12,6 +13,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from enum import StrEnum
+from math import inf
 from typing import Annotated, Any
 
 import typer
@@ -53,8 +55,11 @@ class Plain(TyperCommand):
                     formatter.write_dl(shown)
 
 
-def number(kind: type[int] | type[float], least: float, such_as: float) -> Callable[[str], Any]:
-    """Return the parser of a number from `least` on, which says what it got, what it needs and what to try."""
+MOST_JOBS = 1024  # no machine of today has more cores, and ten times as many processes take its memory before they begin
+
+
+def number(kind: type[int] | type[float], least: float, such_as: float, most: float = inf) -> Callable[[str], Any]:
+    """Return the parser of a number from `least` on, up to `most`, which says what it got, what it needs and what to try."""
 
     def parsed(text: str) -> Any:
         try:
@@ -62,12 +67,17 @@ def number(kind: type[int] | type[float], least: float, such_as: float) -> Calla
         except ValueError:
             value = None
         open_end = kind is float and not least
-        if value is None or not (value > 0 if open_end else least <= value) or value == float("inf"):
+        if value is None or not (value > 0 if open_end else least <= value) or value == inf or value > most:
             wanted = "positive number" if open_end else f"{'whole ' if kind is int else ''}number from {least:g} on"
+            if value is not None and most < value < inf:
+                wanted = f"number of {most:g} at most"
             raise typer.BadParameter(f"got {shorten(str(text))}, expected a {wanted}, try {such_as:g}")
         return value
 
     return parsed
+
+
+jobs_number = number(int, 1, 2, MOST_JOBS)
 
 
 def in_our_words(message: str) -> str:

@@ -23,6 +23,7 @@ from typing import Any
 
 from .. import packaged_examples
 from ..base.errors import InvalidInput, in_file, quote_path, shorten
+from ..base.regular_files import open_regular
 from ..base.writing import reason, write_text
 from ..exact.algebra.validation import MAX_FILE_BYTES
 from ..exact.limits.experiments import Experiment
@@ -139,7 +140,7 @@ def _content(name: str, kind: str) -> bytes:
         if name == "-":
             content = sys.stdin.buffer.read(MAX_FILE_BYTES + 1)
         else:
-            with open(name, "rb") as stream:
+            with open_regular(name, f"a {kind} file; a pipe is read as - from standard input") as stream:
                 content = stream.read(MAX_FILE_BYTES + 1)
     except InvalidInput:
         raise

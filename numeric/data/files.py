@@ -29,18 +29,22 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from importlib import import_module
+from math import prod
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import psutil
 from numpy.typing import NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData, InvalidInput, in_file, quote_path, shorten
 from ...base.progress import Progress, silent
+from ...base.regular_files import open_regular
 from ...base.sheets import counted
 from .choosing import nothing_chosen
 from .clocks import Clock, first_clock, whole_clock
+from .damage import from_library, unpacks_to
 from .hdf5 import hdf5_arrays
 from .records import Record, RecordWriter
 from .selectors import labels_of, missing, named_once, picked, split_names
@@ -151,12 +155,7 @@ def _opened(
     chosen = {"inputs": split_names(inputs), "outputs": split_names(outputs)}
     names = [*chosen["inputs"], *chosen["outputs"]]
     named_once(chosen["inputs"], chosen["outputs"])
-    try:
-        with open(path, "rb"):
-            pass
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise InvalidInput(f"cannot be read ({reason[:1].lower()}{reason[1:]}), expected a data file: {', '.join(FORMATS)}") from None
+    open_regular(path, f"a data file: {', '.join(FORMATS)}").close()
     read_as = FORMATS.get(Path(path).suffix.lower())
     if read_as is None:
         suffix = shorten(Path(path).suffix)
@@ -227,14 +226,9 @@ def _parquet(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack
         advice = "pip install 'faultspace[parquet]', or write the data as CSV or NPZ"
         raise InvalidInput(f"got a Parquet file, which needs pyarrow: {advice}") from None
 
-    def refused(error: Exception) -> InvalidInput:
-        return InvalidInput(f"cannot be read as Parquet data ({_first_line(error)}), expected a Parquet file")
-
-    try:
+    with from_library("Parquet", "a Parquet file"):
         file = stack.enter_context(parquet.ParquetFile(path, pre_buffer=False, buffer_size=BUFFER))
-    except arrow.ArrowException as error:
-        raise refused(error) from None
-    there = list(file.schema_arrow.names)
+        there = list(file.schema_arrow.names)
     twice = [name for name in names if there.count(name) > 1]
     if twice:
         raise InvalidInput(f"got two columns named {shorten(twice[0])}, expected every name once")
@@ -246,85 +240,86 @@ def _parquet(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack
             raise InvalidInput(f"column {shorten(name)} holds values of type {kind}, expected numbers")
 
     def rows() -> Iterator[Array]:
-        done = 0
-        try:
-            for batch in file.iter_batches(batch_size=PIECE, columns=list(names), use_threads=False):
+        done, batches = 0, file.iter_batches(batch_size=PIECE, columns=list(names), use_threads=False)
+        while True:
+            with from_library("Parquet", "a Parquet file"):
+                batch = next(batches, None)
+                if batch is None:
+                    return
                 columns = [batch.column(batch.schema.get_field_index(name)).cast(arrow.float64()) for name in names]
-                yield np.column_stack([np.asarray(column.to_numpy(zero_copy_only=False), dtype=np.float64) for column in columns])
-                done += batch.num_rows
-                on_read(done, file.metadata.num_rows)
-        except arrow.ArrowException as error:
-            raise refused(error) from None
+                values = np.column_stack([np.asarray(column.to_numpy(zero_copy_only=False), dtype=np.float64) for column in columns])
+            yield values
+            done += batch.num_rows
+            on_read(done, file.metadata.num_rows)
+
+    def column(name: str) -> Any:
+        with from_library("Parquet", "a Parquet file"):
+            return file.read(columns=[name]).column(0).to_numpy()
 
     single = any(file.schema_arrow.field(name).type == arrow.float32() for name in names)
-    clock = first_clock([name for name in there if name not in names], lambda name: file.read(columns=[name]).column(0).to_numpy())
+    clock = first_clock([name for name in there if name not in names], column)
     return _Opened((1,) * len(names), single, rows(), clock)
 
 
 def _npz(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -> _Opened:
-    try:
+    with from_library("NPZ", "arrays of numbers as numpy.savez writes them"):
         if not zipfile.is_zipfile(path):
-            np.load(path, allow_pickle=False)  # complains of what is no data at all
+            with open(path, "rb") as stream:
+                np.load(stream, allow_pickle=False)  # complains of what is no data at all
             raise InvalidInput("got a single array under the name of an archive, expected an NPZ file: name it .npy, or use numpy.savez")
         archive = stack.enter_context(zipfile.ZipFile(path))
         members = {name.removesuffix(".npy"): name for name in archive.namelist()}
-        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="faultspace-")))
-        arrays = _Lazily(list(members), lambda name: _member(archive, members[name], folder))
-        return _timed(_side_by_side([_signal(picked(arrays, name, "array"), name) for name in names], names, on_read), arrays, names)
-    except ValueError as error:
-        if isinstance(error, InvalidInput):
-            raise
-        advice = "expected arrays of numbers as numpy.savez writes them"
-        raise InvalidInput(f"cannot be read as NPZ data ({_first_line(error)}), {advice}") from None
-    except Exception as error:  # zipfile.BadZipFile, zlib.error: damaged archives
-        if isinstance(error, (InvalidInput, OSError, EOFError, MemoryError)):
-            raise
-        raise InvalidInput(f"cannot be read as NPZ data ({_first_line(error)}), expected a file as numpy.savez writes it") from None
+    folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="faultspace-")))
+    arrays = _Lazily(list(members), lambda name: _member(archive, members[name], folder))
+    return _timed(_side_by_side([_signal(picked(arrays, name, "array"), name) for name in names], names, on_read), arrays, names)
 
 
 def _member(archive: zipfile.ZipFile, name: str, folder: Path) -> Any:
     """Return an array of the archive: read where it is small, else unpacked and mapped."""
-    with archive.open(name) as packed:
-        if archive.getinfo(name).file_size <= MAPPED:
-            return np.load(io.BytesIO(packed.read()), allow_pickle=False)
-        unpacked = folder / f"{len(list(folder.iterdir()))}.npy"
-        with open(unpacked, "wb") as stream:
-            shutil.copyfileobj(packed, stream, 1 << 20)
-    return np.load(unpacked, mmap_mode="r", allow_pickle=False)
+    there = archive.getinfo(name)
+    if there.file_size > MAPPED:
+        unpacks_to(there.file_size, there.compress_size, shutil.disk_usage(folder).free, "the folder for temporary files")
+    with from_library("NPZ", "arrays of numbers as numpy.savez writes them"):
+        with archive.open(name) as packed:
+            if there.file_size <= MAPPED:
+                return np.load(io.BytesIO(packed.read()), allow_pickle=False)
+            unpacked = folder / f"{len(list(folder.iterdir()))}.npy"
+            with open(unpacked, "wb") as stream:
+                shutil.copyfileobj(packed, stream, 1 << 20)
+        return np.load(unpacked, mmap_mode="r", allow_pickle=False)
 
 
 def _npy(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -> _Opened:
-    try:
+    with from_library("NPY", "an array of numbers as numpy.save writes it"):
         small = path.stat().st_size <= MAPPED
         array = np.load(path, mmap_mode=None if small else "r", allow_pickle=False)
-        if not isinstance(array, np.ndarray):
-            raise InvalidInput("got an archive under the name of a single array, expected an NPY file: name it .npz")
-        if array.ndim == 0:
-            raise InvalidInput("got a single number, expected a matrix with a row a sample")
-        what = f"array; the one of an NPY file is called {MATRIX}, it is not"
-        return _side_by_side([_signal(picked({MATRIX: array}, name, what), name) for name in names], names, on_read)
-    except ValueError as error:
-        if isinstance(error, InvalidInput):
-            raise
-        advice = "expected an array of numbers as numpy.save writes it"
-        raise InvalidInput(f"cannot be read as NPY data ({_first_line(error)}), {advice}") from None
+    if not isinstance(array, np.ndarray):
+        array.close()
+        raise InvalidInput("got an archive under the name of a single array, expected an NPY file: name it .npz")
+    if array.ndim == 0:
+        raise InvalidInput("got a single number, expected a matrix with a row a sample")
+    what = f"array; the one of an NPY file is called {MATRIX}, it is not"
+    return _side_by_side([_signal(picked({MATRIX: array}, name, what), name) for name in names], names, on_read)
 
 
 def _mat(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -> _Opened:
     from scipy.io import loadmat, whosmat
-    from scipy.io.matlab import MatReadError
 
-    try:
-        there = [name for name, _, _ in whosmat(path)]
-        arrays: Mapping[str, Any] = _Lazily(there, lambda name: loadmat(path, variable_names=[name])[name])
-        return _timed(_side_by_side([_signal(picked(arrays, name, "variable"), name) for name in names], names, on_read), arrays, names)
-    except NotImplementedError:
-        arrays = hdf5_arrays(path, stack)
-        return _timed(_side_by_side([_signal(picked(arrays, name, "variable"), name) for name in names], names, on_read), arrays, names)
-    except (MatReadError, ValueError, TypeError, KeyError, IndexError) as error:
-        if isinstance(error, InvalidInput):
-            raise
-        raise InvalidInput(f"cannot be read as MAT data ({_first_line(error)}), expected a MAT file as MATLAB saves it") from None
+    expected = "a MAT file as MATLAB saves it"
+    with from_library("MAT", expected):
+        try:
+            there = {name: prod(shape) for name, shape, _ in whosmat(path)}
+        except NotImplementedError:  # version 7.3
+            there = None
+
+    def read(name: str) -> Any:
+        # A number has one byte at the least.
+        unpacks_to((there or {})[name], path.stat().st_size, psutil.virtual_memory().available, "memory")
+        with from_library("MAT", expected):
+            return loadmat(path, variable_names=[name])[name]
+
+    arrays: Mapping[str, Any] = hdf5_arrays(path, stack) if there is None else _Lazily(list(there), read)
+    return _timed(_side_by_side([_signal(picked(arrays, name, "variable"), name) for name in names], names, on_read), arrays, names)
 
 
 def _side_by_side(signals: Sequence[NDArray[Any]], names: Sequence[str], on_read: OnRead) -> _Opened:
@@ -405,10 +400,6 @@ def _signal(values: Any, name: str) -> NDArray[Any]:
 def _some(samples: int) -> None:
     if samples == 0:
         raise InvalidInput("got no samples, expected a record of many")
-
-
-def _first_line(error: Exception) -> str:
-    return (str(error).strip().splitlines() or [type(error).__name__])[0]
 
 
 READERS: dict[str, Callable[[Path, Sequence[str], OnRead, ExitStack], _Opened]] = {

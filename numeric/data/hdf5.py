@@ -15,11 +15,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import psutil
 from numpy.typing import NDArray
 
 from ...base.errors import InvalidInput
+from .damage import from_library, unpacks_to
 
 KINDS = "fiub"
+EXPECTED = "a MAT file as MATLAB saves it"
 
 
 class _Variables(Mapping[str, Any]):
@@ -27,12 +30,19 @@ class _Variables(Mapping[str, Any]):
 
     def __init__(self, file: Any) -> None:
         self._file = file
-        self._names = [name for name, there in file.items() if getattr(there, "dtype", None) is not None and there.dtype.kind in KINDS]
+        with from_library("HDF5", EXPECTED):
+            self._names = [name for name, there in file.items() if getattr(there, "dtype", None) is not None and there.dtype.kind in KINDS]
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         if name not in self._names:
             raise KeyError(name)
-        return np.asarray(self._file[name][()]).T
+        with from_library("HDF5", EXPECTED):
+            there = self._file[name]
+            size = there.size * there.dtype.itemsize
+        # What nobody wrote takes no room in the file: only the memory that there is bounds such an array.
+        unpacks_to(size, size, psutil.virtual_memory().available, "memory")
+        with from_library("HDF5", EXPECTED):
+            return np.asarray(there[()]).T
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._names)
@@ -50,6 +60,8 @@ def hdf5_arrays(path: Path, stack: ExitStack) -> Mapping[str, Any]:
         advice = "pip install 'faultspace[mat73]', or save it in MATLAB with the option '-v7'"
         raise InvalidInput(f"got a MAT file of version 7.3 (HDF5), which needs h5py: {advice}") from None
     try:
-        return _Variables(stack.enter_context(h5py.File(path, "r")))
+        with from_library("HDF5", EXPECTED):
+            file = stack.enter_context(h5py.File(path, "r"))
     except OSError as error:
-        raise InvalidInput(f"cannot be read as HDF5 ({error}), expected a MAT file as MATLAB saves it") from None
+        raise InvalidInput(f"cannot be read as HDF5 ({error}), expected {EXPECTED}") from None
+    return _Variables(file)

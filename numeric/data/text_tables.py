@@ -62,12 +62,8 @@ class TextTable:
     @classmethod
     def opened(cls, path: Path) -> TextTable:
         """Open a table by what the beginning of the file shows. Raises InvalidInput where that is no table."""
-        try:
-            with _stream(path) as stream:
-                beginning = list(islice(_lines(stream), LOOKED_AT))
-        except UnicodeDecodeError as error:
-            got = f"{error.object[error.start]:#04x}"
-            raise InvalidInput(f"got byte {got} in UTF-16, expected text: save the table as UTF-8 CSV") from None
+        with _stream(path) as stream:
+            beginning = list(islice(_lines(stream), LOOKED_AT))
         return cls.of_lines(path, beginning)
 
     @classmethod
@@ -201,7 +197,7 @@ def _units(lines: Sequence[str], separator: str, decimal: str) -> tuple[str, ...
 def _lines(stream: TextIO) -> Iterator[tuple[int, str]]:
     """Yield the lines that count, with their numbers from 1."""
     number = 0
-    while line := stream.readline(LONGEST_LINE):
+    while line := _line(stream, number + 1):
         number += 1
         if len(line) >= LONGEST_LINE:
             raise InvalidInput(f"line {number} is longer than {LONGEST_LINE} characters, expected a line a sample")
@@ -210,6 +206,15 @@ def _lines(stream: TextIO) -> Iterator[tuple[int, str]]:
         text = line.rstrip("\r\n")
         if text.strip() and not text.lstrip().startswith("#"):
             yield number, text
+
+
+def _line(stream: TextIO, number: int) -> str:
+    """Return the next line of a stream, nothing at its end. Raises InvalidInput for bytes that are no text in UTF-16."""
+    try:
+        return stream.readline(LONGEST_LINE)
+    except UnicodeDecodeError as error:
+        got = f"byte {error.object[error.start]:#04x} in or shortly behind line {number} of UTF-16"
+        raise InvalidInput(f"got {got} ({error.reason}), expected text: is the file cut? Save the table as UTF-8 CSV") from None
 
 
 def _separator(lines: Sequence[str]) -> str:
@@ -253,7 +258,11 @@ def _numeric_share(lines: Sequence[str], separator: str) -> float:
 def _fields(line: str, separator: str) -> list[str]:
     if separator == " ":
         return line.replace('"', "").split()
-    return [field.strip() for field in next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])]
+    try:
+        return [field.strip() for field in next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])]
+    except csv.Error:  # the one thing that a lenient reader refuses
+        got = f"a field of more than {csv.field_size_limit()} characters in the line that begins with {shorten(line[:40])}"
+        raise InvalidInput(f"got {got}, expected names and numbers: is a quotation mark not closed, or is it no table?") from None
 
 
 def _quotes_closed(numbered: Sequence[tuple[int, str]], separator: str) -> None:

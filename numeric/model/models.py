@@ -39,7 +39,7 @@ def observability_matrix(A: Array, C: Array, rows: int) -> Array:
 def _matrix(values: ArrayLike, name: str) -> Array:
     try:
         matrix = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise InvalidData(f"{name} must be a matrix of real numbers: {error}") from None
     if matrix.ndim != 2:
         raise InvalidData(f"{name} must be a matrix with two axes (got shape {matrix.shape})")
@@ -191,7 +191,7 @@ class StateSpaceModel(Shown):
         shapes = {"A": (n, n), "B": (n, n_u), "C": (p, n), "D": (p, n_u)}
         try:
             matrices = {name: np.array(record[name], dtype=np.float64).reshape(shape) for name, shape in shapes.items()}
-        except (TypeError, ValueError) as error:
+        except (TypeError, ValueError, OverflowError) as error:
             raise InvalidData(f"the model's matrices do not fit n = {n}, n_u = {n_u}, p = {p}: {error}") from None
         return cls(**matrices)
 

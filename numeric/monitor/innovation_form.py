@@ -123,7 +123,8 @@ def innovation_form(model: StateSpaceModel, y: Array, u: Array, *, with_inputs: 
     outputs, inputs = (y - units.centre) / units.scale, (u - units.input_centre) / units.input_scale
     in_y, in_u = units.scale[:, None], units.input_scale
     inner = StateSpaceModel(model.A, model.B * in_u, model.C / in_y, model.D * in_u / in_y)
-    gain, first = _gain(inner, outputs, inputs)
+    with np.errstate(over="ignore", invalid="ignore"):  # what no float holds is no candidate
+        gain, first = _gain(inner, outputs, inputs)
     left = _settled(inner, gain, _observed(inner, gain, outputs, inputs), first)
     e, pushed = left[first:], inputs[first:] if with_inputs else inputs[first:, :0]
     if np.any(e[len(e) // 2 :].std(axis=0) < ROUNDING):
@@ -173,7 +174,13 @@ def _gain(model: StateSpaceModel, y: Array, u: Array) -> tuple[Array, int]:
     if n == 0:
         return np.zeros((0, p)), 0
     observed = observability_matrix(model.A, model.C, n)
-    most = np.linalg.pinv(observed.T @ observed, hermitian=True)
+    information = observed.T @ observed
+    if not np.all(np.isfinite(information)):
+        raise InvalidData(
+            f"the model has numbers whose products no float holds (its poles reach {float(np.abs(model.poles[0])):.3g}): is its file "
+            "damaged? Identify it again, in other units"
+        )
+    most = np.linalg.pinv(information, hermitian=True)
     gains = [np.zeros((n, p))] if model.is_stable else []
     for q in CANDIDATES:
         try:

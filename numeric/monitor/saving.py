@@ -11,12 +11,13 @@ import os
 from pathlib import Path
 from typing import Any
 
-from ...base.errors import InvalidInput, quote_path
-from ...base.writing import reason, write_text
+from ...base.errors import InvalidInput, in_file, quote_path
+from ...base.regular_files import open_regular
+from ...base.writing import write_text
 from .learned import FORMAT
 
 MODEL = "model.json"  # what `identify` calls it; a test compares the two
-HEAD = 200  # characters of a file that is there already, in which its format stands
+HEAD = 200  # bytes of a file that is there already, in which its format stands
 
 
 def write(path: str | os.PathLike[str], document: dict[str, Any]) -> None:
@@ -33,10 +34,10 @@ def refuse(path: Path) -> None:
     try:
         if not os.path.lexists(path):
             return
-        with open(path, encoding="utf-8") as stream:
-            if f'"format": "{FORMAT}"' in stream.read(HEAD):
+        with open_regular(path, "a saved monitor") as stream:
+            if f'"format": "{FORMAT}"' in stream.read(HEAD).decode("utf-8", "replace"):
                 return
-    except (OSError, UnicodeDecodeError):
+    except (OSError, InvalidInput):
         pass
     raise InvalidInput(f"{quote_path(str(path))}: is there, and no saved monitor; it is left as it is: name another file")
 
@@ -46,8 +47,9 @@ def read(path: str | os.PathLike[str]) -> Any:
     source = Path(path)
     source = source / MODEL if source.is_dir() else source
     try:
-        return json.loads(source.read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise InvalidInput(f"{quote_path(str(source))}: cannot be read ({reason(error)}), expected a saved monitor or a model") from None
+        with in_file(str(source)), open_regular(source, "a saved monitor or a model") as stream:
+            return json.loads(stream.read().decode("utf-8-sig"))
+    except InvalidInput:
+        raise
     except (ValueError, RecursionError):
         raise InvalidInput(f"{quote_path(str(source))}: got no JSON, expected a saved monitor or a model.json of identify") from None

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import json
 import os
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +19,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from faultspace.cli import reading_files
-from tests.end_to_end.commands import Run, call, command, example
+from tests.end_to_end.commands import ROOT, Run, call, command, example
 from tests.oracle.strategies import systems
 
 SOUND = {"A": [["1/2", "1"], ["0", "-3"]], "F": [["1"], ["0"]], "C": [["1", "0"]], "G": [["0"]]}
@@ -217,7 +219,10 @@ def test_a_file_that_is_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 def test_a_source_without_end_is_not_read_to_its_end() -> None:
     if not Path("/dev/zero").exists():
         pytest.skip("no /dev/zero here")
-    refused(call("inspect", "/dev/zero"), "/dev/zero", "67108864 bytes")
+    refused(call("inspect", "/dev/zero"), "/dev/zero", "a pipe or a device", "standard input")
+    with open("/dev/zero", "rb") as endless:
+        run = subprocess.run([sys.executable, "-m", "faultspace", "inspect", "-"], stdin=endless, capture_output=True, cwd=ROOT, timeout=60)
+    assert run.returncode == 2 and b"67108864 bytes" in run.stderr
 
 
 def test_what_does_not_fit_into_memory(monkeypatch: pytest.MonkeyPatch) -> None:

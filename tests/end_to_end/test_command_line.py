@@ -387,9 +387,12 @@ def test_output_that_cannot_be_written_is_one_line() -> None:
         assert run.stderr.startswith(b"faultspace: standard output") and run.stderr.count(b"\n") == 1
 
 
-def test_closed_output_is_no_error() -> None:
-    shell = f"{shlex.quote(sys.executable)} -m faultspace inspect example:paper >&- 2>&-"
-    assert subprocess.run(shell, shell=True, cwd=ROOT, env=environment()).returncode == 0
+def test_closed_output_is_no_success() -> None:
+    line = f"{shlex.quote(sys.executable)} -m faultspace inspect example:paper"
+    run = subprocess.run(f"{line} >&-", shell=True, cwd=ROOT, env=environment(), stderr=subprocess.PIPE)
+    assert run.returncode == failures.BAD_INPUT and run.stderr.startswith(b"faultspace: standard output: is closed")
+    assert subprocess.run(f"{line} >&- 2>&-", shell=True, cwd=ROOT, env=environment()).returncode == failures.BAD_INPUT
+    assert subprocess.run(f"{line} 2>&-", shell=True, cwd=ROOT, env=environment(), stdout=subprocess.PIPE).returncode == 0
 
 
 def test_the_schemas_share_their_definition_of_a_system() -> None:
