@@ -10,11 +10,15 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 from tests.numeric.audit.unseen import (
+    close_together,
+    corners,
+    far_along,
     fault_dimension,
     fault_space,
     from_records,
     identify,
     identify_channels,
+    left_in_the_process,
     limits,
     manners,
     reconstruct,
@@ -38,6 +42,10 @@ FILES = (
     from_records,
     manners,
     limits,
+    corners,
+    far_along,
+    close_together,
+    left_in_the_process,
 )
 
 
@@ -49,4 +57,10 @@ def _all() -> tuple[Unseen, ...]:
 
 ALL = _all()
 BY_NAME = {one.name: one for one in ALL}
+RIGHT = {
+    "identify-squeezes-a-single-state": "a matrix of one row or column may be answered as a list of its numbers",
+    "structure-goes-through-the-coefficients": "a zero is right within what rounding of the pencil may make of it",
+    "fault-dimension-takes-a-sine-for-none": "a sine does not excite: no number is due",
+    "identify-saves-memory-on-long-records": "of long records whole numbers are compared, and of models those are small",
+}
 adapters = SimpleNamespace(**{one.name: one.adapter for one in ALL})

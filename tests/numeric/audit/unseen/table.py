@@ -1,12 +1,14 @@
 """What the audit says of each mutant: the slugs that fail, or that it escapes.
 
-    python -m tests.numeric.audit.unseen.table [--only GLOB] [--json FILE] [--seconds N] [--check-seconds N]
+    python -m tests.numeric.audit.unseen.table [--only GLOB] [--json FILE] [--seconds N] [--check-seconds N] [--first]
 
 Each mutant is audited in processes of its own: as an adapter given by name, each check within `--check-seconds`, all of them within
-`--seconds`. FILE is written after each mutant, and what stands in it already is not asked again, so that a run can be stopped and taken
-up. The exit code is 1 where a mutant escapes.
+`--seconds`. With `--first` it is asked in a copy of this process, as an object is, up to the first check that it fails; one that
+fails none there, or does not come to an end, is audited whole as without. FILE is written after each mutant, and what stands in it already
+is not asked again, so that a run can be stopped and taken up. The exit code is 1 where a mutant escapes that RULES.md does not call right.
 
 outcome     the slugs that fail, by how many checks, and one of the details; or what went wrong
+first_of    the first check that fails alone
 escapes     names of those that no check catches
 """
 
@@ -20,13 +22,15 @@ import signal
 import sys
 import time
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fnmatch import fnmatch
 from pathlib import Path
 from typing import Any
 
+from faultspace.numeric.audit.checks.catalogue import chosen
 from faultspace.numeric.audit.running import audit
-from tests.numeric.audit.unseen.catalogue import ALL
+from faultspace.numeric.audit.subjects.opening import InProcess
+from tests.numeric.audit.unseen.catalogue import ALL, BY_NAME, RIGHT
 from tests.numeric.audit.unseen.form import Unseen
 
 SHOWN = 4  # slugs of one mutant in a line
@@ -41,10 +45,33 @@ def _audited(name: str, check_seconds: float, into: Any) -> None:
     into.close()
 
 
+def _up_to_the_first(name: str, _: float, into: Any) -> None:
+    """Ask one mutant in this process until a check fails, and send that."""
+    os.setpgid(0, 0)
+    subject = InProcess(BY_NAME[name].adapter)
+    results = []
+    for check in chosen(subject.functions):
+        results.append(subject.perform(check))
+        if results[-1].failed:
+            break
+    into.send((len(results), [(one.name, one.slug, str(one.verdict), one.detail) for one in results[-1:] if one.failed]))
+    into.close()
+
+
+def first_of(one: Unseen, seconds: float, check_seconds: float) -> dict[str, Any]:
+    """Return the first check that a mutant fails in a copy of this process; where there is none, or no end, what the whole audit says."""
+    found = _asked(_up_to_the_first, one, seconds, check_seconds)
+    return found if found.get("failed") else outcome(one, seconds, check_seconds)
+
+
 def outcome(one: Unseen, seconds: float, check_seconds: float) -> dict[str, Any]:
     """Return what the audit says of a mutant within so many seconds."""
+    return _asked(_audited, one, seconds, check_seconds)
+
+
+def _asked(way: Callable[[str, float, Any], None], one: Unseen, seconds: float, check_seconds: float) -> dict[str, Any]:
     ours, theirs = multiprocessing.Pipe(duplex=False)
-    process = multiprocessing.get_context("fork").Process(target=_audited, args=(one.name, check_seconds, theirs))
+    process = multiprocessing.get_context("fork").Process(target=way, args=(one.name, check_seconds, theirs))
     begun = time.perf_counter()
     process.start()
     theirs.close()
@@ -68,15 +95,15 @@ def outcome(one: Unseen, seconds: float, check_seconds: float) -> dict[str, Any]
 
 
 def escapes(found: dict[str, dict[str, Any]]) -> list[str]:
-    """Return the slugs of the mutants that pass every check."""
-    return [name for name, one in found.items() if "ended" not in one and not one["failed"]]
+    """Return the slugs of the mutants that pass every check, and that RULES.md does not call right."""
+    return [name for name, one in found.items() if "ended" not in one and not one["failed"] and name not in RIGHT]
 
 
-def _line(one: dict[str, Any]) -> str:
+def _line(name: str, one: dict[str, Any]) -> str:
     if "ended" in one:
         return str(one["ended"])
     if not one["failed"]:
-        return f"ESCAPES {one['checks']} checks"
+        return f"ESCAPES {one['checks']} checks" + (f": right, for {RIGHT[name]}" if name in RIGHT else "")
     slugs = list(one["slugs"])
     more = f", and {len(slugs) - SHOWN} more" if len(slugs) > SHOWN else ""
     return f"{one['failed']} of {one['checks']}: {', '.join(slugs[:SHOWN])}{more}"
@@ -99,20 +126,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
     asked.add_argument("--json", type=Path, metavar="FILE", help="where the results go, and where those that are known come from")
     asked.add_argument("--seconds", type=float, default=600.0, help="for one mutant in all")
     asked.add_argument("--check-seconds", type=float, default=30.0, help="for one check of it")
+    asked.add_argument("--first", action="store_true", help="stop at the first check that a mutant fails")
     options = asked.parse_args(arguments)
+    way = first_of if options.first else outcome
     chosen = [one for one in ALL if fnmatch(one.name, options.only)]
     if not chosen:
         asked.error(f"--only {options.only}: there is no such mutant; the first of {len(ALL)} is {ALL[0].name}")
     known = json.loads(options.json.read_text("utf-8")) if options.json and options.json.exists() else {}
     for number, one in enumerate(chosen, 1):
         if one.name not in known:
-            known[one.name] = outcome(one, options.seconds, options.check_seconds)
+            known[one.name] = way(one, options.seconds, options.check_seconds)
             _write(options.json, known)
-        print(f"[{number}/{len(chosen)}] {one.name}: {_line(known[one.name])}", flush=True)
+        print(f"[{number}/{len(chosen)}] {one.name}: {_line(one.name, known[one.name])}", flush=True)
     asked_for = {one.name: known[one.name] for one in chosen}
     left = escapes(asked_for)
     ended = [name for name, one in asked_for.items() if "ended" in one]
-    print(f"{len(chosen)} mutants: {len(chosen) - len(left) - len(ended)} caught, {len(left)} escape, {len(ended)} did not end")
+    right = sum(not one.get("failed") and "ended" not in one for one in asked_for.values()) - len(left)
+    caught = len(chosen) - len(left) - len(ended) - right
+    print(f"{len(chosen)} mutants: {caught} caught, {len(left)} escape, {right} right by RULES.md, {len(ended)} did not end")
     for name in left:
         print(f"  {name}: {asked_for[name]['wrong']}")
     return int(bool(left or ended))

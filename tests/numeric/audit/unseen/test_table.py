@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.numeric.audit.unseen import table
-from tests.numeric.audit.unseen.catalogue import ALL
+from tests.numeric.audit.unseen.catalogue import ALL, BY_NAME, RIGHT
 
 
 def test_a_mutant_that_takes_too_long_is_ended() -> None:
@@ -33,7 +33,19 @@ def test_what_is_known_is_not_asked_again_and_an_escape_is_told(
     assert asked == [second.name] and set(json.loads(file.read_text("utf-8"))) == {first.name, second.name}
     said = capsys.readouterr().out
     assert f"{first.name}: 2 of 9: some-slug" in said and f"{second.name}: ESCAPES 7 checks" in said
-    assert "2 mutants: 1 caught, 1 escape, 0 did not end" in said
+    assert "2 mutants: 1 caught, 1 escape, 0 right by RULES.md, 0 did not end" in said
+
+
+def test_the_first_check_that_fails_is_enough_and_who_fails_none_is_audited_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = table.first_of(BY_NAME["structure-lists-zeros-inside"], 60.0, 30.0)
+    assert found["failed"] == 1 < found["checks"] and list(found["slugs"]) == ["finite-zeros"]
+    monkeypatch.setattr(table, "outcome", lambda one, seconds, check_seconds: {"whole": one.name})
+    assert table.first_of(BY_NAME["structure-goes-through-the-coefficients"], 60.0, 30.0)["whole"]
+
+
+def test_who_is_right_is_a_mutant_that_there_is() -> None:
+    assert set(RIGHT) <= set(BY_NAME)
+    assert table.escapes({name: {"failed": 0} for name in RIGHT}) == []
 
 
 def test_a_glob_without_a_mutant_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
