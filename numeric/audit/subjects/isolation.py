@@ -16,9 +16,7 @@ from ....base.errors import InvalidData
 from ....base.processes import STANDARD, Limits
 from ..records import Broken, Check, CheckResult, broken
 from ..vectors.trouble import SEED
-from .programs import Program
-
-LOADING = 120.0  # seconds for Python and the adapter's imports, whatever a check may take
+from .programs import LOADING, Program
 
 
 class Isolated:

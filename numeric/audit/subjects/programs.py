@@ -30,6 +30,7 @@ from ....base.errors import InvalidData, shorten
 from ....base.processes import Limits, family, kill_session, resident, session
 from ..records import Broken
 
+LOADING = 120.0  # seconds for an interpreter and its imports, before the first answer, whatever an answer may take
 LONGEST_ANSWER = 64 << 20
 GLANCE = 0.05  # seconds between two looks at the memory: what grows by gigabytes a second is seen in time
 BACKSTOP = 4  # times the memory allowed: reserved is more than held, and the words for too much are those of a look
@@ -48,14 +49,20 @@ class Program:
         self._arguments = list(command)
         self._mark = token_hex(16)
         self._environment = {**(os.environ if environment is None else environment), MARK: self._mark}
+        self._strangers = set(psutil.pids())
         self._own: set[psutil.Process] | None = None
         self._process: subprocess.Popen[bytes] | None = None
         self._pending = b""
         self._family: set[psutil.Process] = set()
 
+    @property
+    def running(self) -> bool:
+        """Whether it is there, so that the next question does not start it."""
+        return self._process is not None and self._process.poll() is None
+
     def ask(self, line: bytes, seconds: float | None = None) -> bytes:
         """Return the line that answers `line` within so many seconds (None: the limit); neither ends with a line feed. Raises Broken."""
-        if self._process is None or self._process.poll() is not None:
+        if not self.running:
             self.close()
             self._start()
         try:
@@ -136,12 +143,26 @@ class Program:
         return answer
 
     def _marked(self) -> set[psutil.Process]:
-        """Return the processes that carry the mark, wherever they are."""
-        found = set()
-        for one in psutil.process_iter():
-            with suppress(psutil.Error, OSError):
-                if one.environ().get(MARK) == self._mark:
+        """Return the processes that carry the mark, wherever they are.
+
+        Those that come while others are looked at are looked at, too, until there are no new ones: of a chain, in which each process starts
+        the next one and ends, one is always met. Who was there before the program, or carried no mark once, is not looked at again.
+        """
+        found, met = set[psutil.Process](), set[int]()
+        while born := set(psutil.pids()) - self._strangers - met:
+            for number in born:
+                try:
+                    one = psutil.Process(number)
+                    environment = one.environ()
+                except (psutil.Error, OSError):
+                    self._strangers.add(number)
+                    continue
+                if environment.get(MARK) == self._mark:
                     found.add(one)
+                if environment and one not in found:
+                    self._strangers.add(number)
+                else:  # without any environment it may be about to become another program
+                    met.add(number)
         return found
 
     def _see_who_stays(self) -> None:
@@ -150,7 +171,10 @@ class Program:
             self._own = self._marked()
             return
         deadline = time.monotonic() + PATIENCE
-        while left := [one for one in (self._marked() | self._family) - self._own if _lives(one)]:
+        # One that was met and has ended since may have been followed by another: it counts until nobody is met.
+        while left := [one for one in self._marked() - self._own if not _helps(one)] + [
+            one for one in self._family - self._own if _lives(one)
+        ]:
             if time.monotonic() > deadline:
                 self._family |= set(left)
                 raise Broken(f"left {len(left)} process{'' if len(left) == 1 else 'es'} behind: {_words(left[0])}")
@@ -181,8 +205,13 @@ class Program:
 def _lives(process: psutil.Process) -> bool:
     """Say whether it runs, and is neither a zombie nor a helper of Python's own."""
     with suppress(psutil.Error):
-        return process.is_running() and process.status() != psutil.STATUS_ZOMBIE and HELPER not in _words(process)
+        return process.is_running() and process.status() != psutil.STATUS_ZOMBIE and not _helps(process)
     return False
+
+
+def _helps(process: psutil.Process) -> bool:
+    """Say whether it is a helper of Python's own."""
+    return HELPER in _words(process)
 
 
 def _words(process: psutil.Process) -> str:

@@ -3,7 +3,7 @@
 Exec        starts the program, asks it what it offers, and has a function for each; `close` ends it
 
 The protocol is in PROTOCOL.md. A program that ends, hangs or prints what is no answer is told as broken and started again for the next
-question.
+question, before which it is asked anew what it offers: what an interpreter takes to start is no answer's time.
 """
 
 from __future__ import annotations
@@ -17,12 +17,13 @@ from typing import Any, Self
 
 import numpy as np
 
-from ....base.errors import InvalidData
+from ....base.errors import InvalidData, shorten
 from ....base.processes import STANDARD, Limits
 from ..adapter import FUNCTIONS, ZeroStructure
 from ..records import Broken, Refused
-from .programs import Program
+from .programs import LOADING, Program
 
+OFFERS = {"call": "functions"}
 ARGUMENTS = {
     "identify": ("y", "u", "order", "block_rows"),
     "residual": ("y", "u", "A", "B", "C", "D"),
@@ -61,7 +62,7 @@ class Exec:
             raise InvalidData("got no program, expected a command such as 'octave-cli --quiet adapter.m'")
         self._program = Program(words, limits)
         try:
-            answer = self._ask({"call": "functions"})
+            answer = self._ask(OFFERS, LOADING)
             offered, self.NOT_PROMISED = answer.get("functions"), answer.get("not_promised", {})
         except (Broken, Refused) as failure:
             raise InvalidData(f"the program {self._program.command} does not speak the protocol: {failure}") from None
@@ -82,6 +83,8 @@ class Exec:
         self._program.close()
 
     def _call(self, name: str, *arguments: Any) -> Any:
+        if not self._program.running:
+            self._ask(OFFERS, LOADING)
         given = (one.tolist() if isinstance(one, np.ndarray) else one for one in arguments)
         answer = self._ask({"call": name, **dict(zip(ARGUMENTS[name], given, strict=True))})
         if "refused" in answer:
@@ -94,11 +97,14 @@ class Exec:
             return _structure(*values)
         return values if len(values) > 1 else values[0]
 
-    def _ask(self, question: dict[str, Any]) -> dict[str, Any]:
-        """Send one line and read one line. NaN and infinities are written as the strings "NaN", "Infinity", "-Infinity"."""
+    def _ask(self, question: dict[str, Any], seconds: float | None = None) -> dict[str, Any]:
+        """Send one line and read one line, within so many seconds (None: the limit).
+
+        NaN and infinities are written as the strings "NaN", "Infinity", "-Infinity".
+        """
         line = json.dumps(_finite(question), allow_nan=False).encode()
         try:
-            answer = json.loads(self._program.ask(line))
+            answer = json.loads(self._program.ask(line, seconds))
         except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
             self.close()
             raise Broken(f"printed what is no JSON line: {error}") from None
@@ -124,6 +130,8 @@ def _numbers(value: Any) -> Any:
         return [_numbers(one) for one in value]
     if value in ("NaN", "Infinity", "-Infinity"):
         return float(value)
+    if isinstance(value, str):
+        raise Broken(f"the text {shorten(value)} stands where a number is due")
     return float("nan") if value is None else value
 
 
