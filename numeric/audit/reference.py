@@ -15,10 +15,12 @@ from ..count.hankel_ranks import rounding_ranks
 from ..count.rank_gap import fault_dimension as count
 from ..count.windows import EPS, channel_sizes
 from ..data.validation import enough_samples, signal
+from ..model.asymptotic_likelihood import arx_reduction
 from ..model.models import StateSpaceModel
 from ..model.past_inputs import UNDETERMINED, pi_moesp
 from ..model.residuals import residual as subtract
-from ..pipeline import identify as identified
+from ..rows.fault_count import count_faults as count_in_record
+from ..rows.space import identified_fault_space as space_of_model
 from ..signal.reconstruction import reconstruct_fault
 from ..signal.zeros import fault_zeros, in_equal_units
 from ..space.by_ranks import fault_space as space
@@ -78,17 +80,15 @@ def structure(A: Array, F: Array, C: Array, G: Array) -> ZeroStructure:
 
 
 def count_faults(y: Array, u: Array, order: int) -> int | None:
-    """The number is that of `identify`, None where it is undecided."""
-    return identified(y, u, order=order).n_v
+    """The number is None where it is undecided."""
+    return count_in_record(y, u, order=order).n_v
 
 
 def identified_fault_space(y: Array, u: Array, order: int, n_v: int) -> tuple[Array, Array, Array] | None:
-    """Model and space are those of `identify`; None where the space is undecided."""
-    found = identified(y, u, order=order, n_v=n_v)
-    space = found.fault_space
-    if found.model is None or space is None or not (space.decided and space.meaningful):
-        return None
-    return found.model.A, found.model.C, space.basis
+    """The model is that of `arx_reduction`; None where the space is undecided."""
+    model = arx_reduction(y, u, order=order)
+    found = space_of_model(y, u, model, n_v=n_v)
+    return (model.model.A, model.model.C, found.basis) if found.decided and found.meaningful else None
 
 
 def _infinite_zero_orders(A: Array, F: Array, C: Array, G: Array) -> list[int]:

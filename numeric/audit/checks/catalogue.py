@@ -14,7 +14,7 @@ from difflib import get_close_matches
 from ....base.errors import InvalidData
 from ..making.kinds_of_trouble import KINDS
 from ..names import named, patterned
-from ..records import Check
+from ..records import Check, Demand
 from ..vectors.trouble import SEED
 from . import (
     consistency,
@@ -60,11 +60,12 @@ def all_checks(seed: int = SEED) -> Iterator[Check]:
 
 
 def quick_checks(checks: Iterable[Check]) -> Iterator[Check]:
-    """This yields the first check of each slug and function, and of those on kinds of trouble all."""
+    """This yields the first check of each slug and function, and of those on kinds of trouble all; what is free, and fails nobody, is left
+    out."""
     troubled = {kind.slug for kind in KINDS}
     seen = set()
     for one in checks:
-        if one.vector in troubled or (one.slug, one.function) not in seen:
+        if one.kind != Demand.FREE and (one.vector in troubled or (one.slug, one.function) not in seen):
             seen.add((one.slug, one.function))
             yield one
 

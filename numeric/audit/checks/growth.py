@@ -51,6 +51,8 @@ EVERY = 0.004  # seconds between two looks at the memory
 SEED = 20250523
 FORGETTING = "whole-numbers"
 KINDS = {FORGETTING: "", "whole-numbers-that-add-up": "-that-add-up"}  # and what the name of the record ends in
+LATE = 4  # a fault that begins late has the last quarter of the record
+LOUD = 2.0**27 + 1  # whole numbers of three bits more than single precision has: rounded to it they are off by units
 STEP, LASTS = 100, 700  # the size of the steps in a residual, and the samples that each lasts
 NEAREST = 0.5  # from a whole number: what is nearer is no other
 
@@ -153,7 +155,8 @@ def _right(name: str, kind: str, suffix: str) -> Check:
     def measure(function: Function) -> Iterator[Measurement]:
         arguments = question(name, LENGTHS[1], kind)
         if name == "residual":
-            arguments = arguments[0] + stepping(arguments[0].shape), *arguments[1:]
+            y, u, *model = arguments
+            arguments = LOUD * (y + stepping(y.shape)), LOUD * u, *model
         yield from _OFF[name](kind, arguments, function(*arguments))
 
     effect = "wrong answers on records of ordinary length"
@@ -182,7 +185,7 @@ def _residual_off(kind: str, arguments: tuple[Any, ...], answer: Any) -> Iterato
     projection."""
     y, _, A, _, C, _ = arguments
     n = len(A)
-    off = (as_signal(answer, y.shape) - stepping(y.shape))[n:]
+    off = (as_signal(answer, y.shape) - LOUD * stepping(y.shape))[n:]
     lasting = C @ np.linalg.matrix_power(A, n)
     free = lasting @ np.linalg.pinv(lasting) @ off.mean(axis=0)
     yield Measurement("r", float(np.max(np.abs(off - free))), NEAREST)
@@ -204,7 +207,7 @@ def _space_off(kind: str, arguments: tuple[Any, ...], answer: Any) -> Iterator[M
 
 
 def _signal_off(kind: str, arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
-    due, late = _driven(len(arguments[0]), _fault(kind).system.m), _fault(kind).v.nrows - _fault(kind).trusted
+    due, late = faults("reconstruct", len(arguments[0]), kind), _fault(kind).v.nrows - _fault(kind).trusted
     got = as_signal(answer, due.shape)
     yield Measurement("v", float(np.max(np.abs(got - due)[: len(due) - late])), NEAREST)
 
@@ -258,7 +261,7 @@ def question(name: str, length: int, kind: str = FORGETTING) -> tuple[Any, ...]:
         return _response(u, *driven_system(name, kind)), u, model.order, model.block_rows
     fault = _fault_of(name, kind)
     A, F, C, G = (floats(M) for M in driven_system(name, kind))
-    v = _driven(length, fault.system.m)
+    v = faults(name, length, kind)
     r = _response(v, *driven_system(name, kind))
     arguments: dict[str, tuple[Any, ...]] = {
         "residual": (r, v, A, F, C, G),
@@ -268,6 +271,14 @@ def question(name: str, length: int, kind: str = FORGETTING) -> tuple[Any, ...]:
         "reconstruct": (r, A, F, C, G, np.zeros(len(A))),
     }
     return arguments[name]
+
+
+def faults(name: str, length: int, kind: str = FORGETTING) -> Array:
+    """Return the signal behind a residual; where it has to be found again, it is LOUD, and that of the kind that adds up begins late."""
+    v = _driven(length, _fault_of(name, kind).system.m)
+    if kind != FORGETTING and name != "residual":
+        v[: length - length // LATE] = 0.0
+    return v * (LOUD if name == "reconstruct" else 1.0)
 
 
 def driven_system(name: str, kind: str = FORGETTING) -> tuple[Matrix, Matrix, Matrix, Matrix]:

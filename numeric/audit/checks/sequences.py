@@ -2,7 +2,8 @@
 
 checks    one-argument-changed: questions that differ in one matrix alone, each with its own exact answer, and the first one again after one
           a thousand million times as large; same-beginning: records that begin alike; earlier-answers-stay: an answer after others were
-          given, and beside the arguments; forgets-the-records: how many of the records asked about are still held
+          given, and beside the arguments; forgets-the-records: how many of the records asked about are still held,
+          and what memory more of them take for good
 
 A program may remember what it was asked, as long as it knows the question again by all of it, and as long as what it keeps has an end.
 """
@@ -10,6 +11,7 @@ A program may remember what it was asked, as long as it knows the question again
 from __future__ import annotations
 
 import gc
+import tracemalloc
 import weakref
 from collections.abc import Callable, Iterator
 from dataclasses import astuple, is_dataclass, replace
@@ -29,13 +31,15 @@ from ..vectors.fault_vectors import FaultVector
 from ..vectors.rationals import floats, fractions, matrix
 from ..vectors.shipped_vectors import StructureVector, shipped
 from ..vectors.trouble import default_troubles
-from . import structure
+from . import growth, structure
 from .faults import ranks_off, residual_off, signal_off
 from .manners import copies, equal, questions
 
 LARGE = 2**30
 ASKED = 20  # records
 HELD = 10  # of them at most: to keep some answers is a program's own affair, to keep all of the records is none
+MANY = 600  # samples of each of many records: far more bytes than an interpreter leaves lying about
+MORE = 3  # in each of the rounds after that, of which the first is nobody's: who keeps all of them grows in each
 WINDOWS = 5  # from the fourth on the laws of two faults show
 
 
@@ -50,7 +54,8 @@ def checks() -> Iterator[Check]:
         effect = "an answer that was kept is overwritten, or what is done to it is done to the caller's data"
         yield _check("earlier-answers-stay", name, vector, effect, partial(_stay, arguments))
         effect = "memory grows with every question"
-        yield _check("forgets-the-records", name, vector, effect, partial(_forgets, arguments))
+        long = name if name != "structure" and vector != "silent-model" else None  # which have no records, or were asked before
+        yield _check("forgets-the-records", name, vector, effect, partial(_forgets, long, arguments))
 
 
 def _check(slug: str, function: str, vector: str, effect: str, measure: Callable[[Function], Iterator[Measurement]]) -> Check:
@@ -178,7 +183,7 @@ def _arrays(answer: Any) -> list[Any]:
     return [array for one in answer for array in _arrays(one)] if isinstance(answer, (list, tuple)) else []
 
 
-def _forgets(arguments: tuple[Any, ...], function: Function) -> Iterator[Measurement]:
+def _forgets(long: str | None, arguments: tuple[Any, ...], function: Function) -> Iterator[Measurement]:
     ghosts = []
     for number in range(ASKED):
         first = arguments[0] * (1 + number)
@@ -187,3 +192,26 @@ def _forgets(arguments: tuple[Any, ...], function: Function) -> Iterator[Measure
         del first
     gc.collect()
     yield Measurement("records held", float(sum(ghost() is not None for ghost in ghosts)), float(HELD))
+    if long is not None:
+        yield Measurement(f"records' worth of memory kept of {MORE}", _kept(function, *growth.question(long, MANY)), MORE / 2)
+
+
+def _kept(function: Function, record: Any, *others: Any) -> float:
+    """Return by how many records' worth the memory of this process grows with MORE of them, after ASKED others.
+
+    A copy of each is seen so, or an answer for each, however it is kept.
+    """
+
+    def asked(numbers: range) -> int:
+        before = tracemalloc.get_traced_memory()[0]
+        for number in numbers:
+            _asked(function, (record * (1 + number), *copies(others)))
+        gc.collect()
+        return tracemalloc.get_traced_memory()[0] - before
+
+    tracemalloc.start()
+    try:
+        _, *grown = (asked(range(first, first + MORE)) for first in range(ASKED, ASKED + 3 * MORE, MORE))
+    finally:
+        tracemalloc.stop()
+    return float(max(min(grown), 0) / record.nbytes)

@@ -2,15 +2,18 @@
 
 checks      for every function, on the vectors of `manners`
 state       name -> what a call must leave as it was
+hooks       where the interpreter lets others be called
 
 Each function is called once before anything is looked at: what the first call loads and caches is its own affair.
 """
 
 from __future__ import annotations
 
+import decimal
 import gc
 import io
 import locale
+import logging
 import os
 import random
 import signal
@@ -30,7 +33,13 @@ import psutil
 from ..records import Check, Function, Measurement, Refused, Severity
 from .manners import copies, equal, questions
 
+try:
+    import resource
+except ImportError:  # no such limits on this platform
+    resource = None  # type: ignore[assignment]
+
 Arguments = tuple[Any, ...]
+TIMERS = tuple(getattr(signal, name) for name in ("ITIMER_REAL", "ITIMER_VIRTUAL", "ITIMER_PROF") if hasattr(signal, name))
 
 
 def checks() -> Iterator[Check]:
@@ -68,11 +77,38 @@ def state() -> dict[str, Any]:
         "the limit of recursion": sys.getrecursionlimit(),
         "collection of garbage": gc.isenabled(),
         "standard streams": (sys.stdout, sys.stderr, sys.stdin),
-        "signals": {one: signal.getsignal(one) for one in (signal.SIGINT, signal.SIGTERM, signal.SIGALRM)},
+        "signals": {one: signal.getsignal(one) for one in signal.valid_signals()},
+        "timers": [signal.getitimer(one)[0] > 0 for one in TIMERS],
+        "hooks": hooks(),
+        "the context of decimals": str(decimal.getcontext()),
+        "the log of all": (tuple(logging.root.handlers), logging.root.level, logging.root.manager.disable),
+        "the mask of new files": _mask(),
+        "limits of the process": _limits(),
+        "open files": psutil.Process().num_fds() if hasattr(psutil.Process, "num_fds") else 0,
         "threads of Python": threading.active_count(),
         "threads of the linear algebra": [(one["filepath"], one["num_threads"]) for one in threadpool_info()],
         "child processes": {one.pid for one in psutil.Process().children(recursive=True) if one.status() != psutil.STATUS_ZOMBIE},
     }
+
+
+def hooks() -> tuple[Any, ...]:
+    """Return what the interpreter calls for others: for errors, warnings, output, imports, traces."""
+    of_sys = (sys.excepthook, sys.unraisablehook, sys.displayhook, sys.breakpointhook, sys.gettrace(), sys.getprofile())
+    return (*of_sys, threading.excepthook, warnings.showwarning, tuple(sys.meta_path), tuple(sys.path_hooks), tuple(gc.callbacks))
+
+
+def _mask() -> int:
+    mask = os.umask(0o077)
+    os.umask(mask)
+    return mask
+
+
+def _limits() -> tuple[Any, ...]:
+    """Return the limits of resources, the priority, and the processors allowed, of which some platforms have none."""
+    if resource is None:
+        return ()
+    limits = tuple(resource.getrlimit(getattr(resource, name)) for name in dir(resource) if name.startswith("RLIMIT_"))
+    return limits, os.nice(0), os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else None
 
 
 def _leaves_the_state(arguments: Arguments, function: Function) -> Iterator[Measurement]:
@@ -81,6 +117,8 @@ def _leaves_the_state(arguments: Arguments, function: Function) -> Iterator[Meas
     with _as_it_was():
         np.random.seed(20250601)
         random.seed(20250601)
+        if threading.current_thread() is threading.main_thread():  # to ignore what is ignored already would be seen nowhere
+            signal.signal(signal.SIGINT, signal.default_int_handler)
         before = state()
         function(*copies(arguments))
         after = state()
@@ -93,8 +131,11 @@ def _as_it_was() -> Iterator[None]:
     """Give back, as far as that is possible, what a function may have changed."""
     numbers, python, folder, environment = np.random.get_state(), random.getstate(), os.getcwd(), dict(os.environ)
     streams, path, printed = (sys.stdout, sys.stderr, sys.stdin), list(sys.path), np.get_printoptions()
-    limit, collects = sys.getrecursionlimit(), gc.isenabled()
-    with warnings.catch_warnings(), np.errstate():
+    limit, collects, mask = sys.getrecursionlimit(), gc.isenabled(), _mask()
+    handlers, level, speech = list(logging.root.handlers), logging.root.level, locale.setlocale(locale.LC_ALL)
+    called = {name: getattr(sys, name) for name in ("excepthook", "unraisablehook", "displayhook", "breakpointhook")}
+    signals = {one: signal.getsignal(one) for one in signal.valid_signals()}
+    with warnings.catch_warnings(), np.errstate(), decimal.localcontext():
         try:
             yield
         finally:
@@ -109,6 +150,16 @@ def _as_it_was() -> Iterator[None]:
             np.set_printoptions(**printed)
             sys.setrecursionlimit(limit)
             (gc.enable if collects else gc.disable)()
+            os.umask(mask)
+            locale.setlocale(locale.LC_ALL, speech)
+            for name, hook in called.items():
+                setattr(sys, name, hook)
+            logging.root.handlers[:] = handlers
+            logging.root.setLevel(level)
+            if threading.current_thread() is threading.main_thread():
+                for one, handler in signals.items():
+                    if handler is not None and signal.getsignal(one) != handler:
+                        signal.signal(one, handler)
 
 
 def _prints_nothing(arguments: Arguments, function: Function) -> Iterator[Measurement]:

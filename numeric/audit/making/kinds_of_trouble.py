@@ -22,6 +22,8 @@ from faultspace.exact.system.systems import ResidualSystem
 from ..vectors.rationals import fractions, matrix
 from .planting import (
     HALVES,
+    SMALL,
+    about_a_mean,
     beside,
     channel,
     delay,
@@ -29,6 +31,7 @@ from .planting import (
     drawn_dyadic,
     factor,
     hidden,
+    in_unlike_units,
     late,
     pair,
     resized,
@@ -58,7 +61,7 @@ Polynomial = list[Fraction]
 @dataclass(frozen=True)
 class Kind:
     """A kind of trouble: `what` is hard, in words; `drawn` makes a system; `asks` names the functions that it concerns; `moves` gives the
-    fault signal of the record for a number of samples that suffices, and of faults."""
+    fault signal of the record, or the inputs, for a number of samples that suffices, and of faults or inputs."""
 
     slug: str
     what: str
@@ -192,6 +195,7 @@ def _with_poles(*denominators: Polynomial | Callable[[Random], Polynomial], n: i
     return generate
 
 
+NEAR = Fraction(1, 2**12)
 INSIDE = (Fraction(3, 8), Fraction(-3, 8), Fraction(1, 8), Fraction(-1, 8), Fraction(5, 8), Fraction(-5, 8))
 
 
@@ -283,6 +287,12 @@ def _five(rng: Random) -> Polynomial:
     return times(*(factor(Fraction(one, 8)) for one in rng.sample((-7, -5, -3, -2, -1, 1, 2, 3, 5, 7), 5)))
 
 
+def _close(rng: Random) -> Polynomial:
+    """Two real zeros, and a complex pair, 2^-12 from being double."""
+    a = _quarter(rng)
+    return times(factor(a), factor(a + NEAR), pair(-a / 2, NEAR))
+
+
 def _orders_one_and_three(rng: Random) -> ResidualSystem:
     """Both faults are seen after one sample, and apart after three alone."""
     bank = beside(channel(_quarter_factor(rng), _stable(rng, 2)), channel([Fraction(1)], _stable(rng, 3)))
@@ -294,11 +304,13 @@ def _quarter_factor(rng: Random) -> Polynomial:
     return factor(_quarter(rng))
 
 
-def _resized(drawn: Callable[[Random], ResidualSystem], faults: int, outputs: Sequence[int]) -> Callable[[Random], ResidualSystem]:
-    """The generator of the same systems in other units: faults 2^faults times as large, output i 2^outputs[i] times."""
+def _resized(
+    drawn: Callable[[Random], ResidualSystem], faults: Sequence[int], outputs: Sequence[int]
+) -> Callable[[Random], ResidualSystem]:
+    """The generator of the same systems in other units: fault j 2^faults[j] times as large, output i 2^outputs[i] times."""
 
     def generate(rng: Random) -> ResidualSystem:
-        return resized(drawn(rng), Fraction(2) ** faults, [Fraction(2) ** one for one in outputs])
+        return resized(drawn(rng), [Fraction(2) ** one for one in faults], [Fraction(2) ** one for one in outputs])
 
     return generate
 
@@ -367,17 +379,44 @@ KINDS = (
     Kind(
         "small-units",
         "small F and C, and products of them smaller still",
-        _resized(_square_of(_complex, _eighth), -20, (-20, -20)),
+        _resized(_square_of(_complex, _eighth), (-20, -20), (-20, -20)),
         (STRUCTURE,),
     ),
     Kind("silent-mode", "no fault, and a state that no output shows", _silent_mode, (STRUCTURE,)),
     Kind(
         "small-columns",
         "as many outputs as faults, of whose columns all are small",
-        _resized(_square_of(_quarter_factor, _eighth), -17, (0, 0)),
+        _resized(_square_of(_quarter_factor, _eighth), (-17, -17), (0, 0)),
         (STRUCTURE, RANKS, RESIDUAL, SIGNAL),
     ),
     Kind("order-1", "one state, one input, one output", _plain(1, 1, 1), (STRUCTURE, RANKS, MODEL, RESIDUAL)),
     Kind("fault-begins-late", "a fault that begins after two hundred samples", _plain(2, 2, 3), RECORDS, late),
     Kind("fault-with-a-spike", "a fault that is a thousand times larger in one sample", _plain(2, 1, 3), RECORDS, spiked),
+    Kind("zeros-close", "zeros that are nearly double, and no more than nearly", _with_zeros(_close), (STRUCTURE,)),
+    Kind(
+        "faults-in-unlike-units",
+        "a fault of a ten-millionth of another, which is its unit alone",
+        _resized(_with_zeros(_quarter_factor, _eighth, p=4), (0, -24), (0, 0, 0, 0)),
+        (STRUCTURE, SIGNAL),
+    ),
+    Kind(
+        "outputs-in-unlike-units",
+        "an output of a hundred-thousand-millionth of another, without which there is a zero",
+        _resized(_plain(3, 1, 2), (0,), (0, -36)),
+        (STRUCTURE,),
+    ),
+    Kind("inputs-about-a-mean", "inputs about a mean of many times their deviation", _plain(3, 2, 2), (MODEL,), about_a_mean),
+    Kind(
+        "inputs-in-unlike-units",
+        "an input of a thousand-millionth of another, which does as much",
+        _resized(_plain(3, 2, 3), (0, SMALL), (0, 0, 0)),
+        (MODEL,),
+        in_unlike_units,
+    ),
+    Kind(
+        "poles-of-no-short-fraction",
+        "poles that few digits do not write",
+        _with_poles(times(factor(Fraction(1, 3)), factor(Fraction(2, 7))), n=1),
+        (MODEL,),
+    ),
 )

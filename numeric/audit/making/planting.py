@@ -34,6 +34,8 @@ HALVES = (Fraction(1, 2), Fraction(-1, 2), Fraction(1, 4), Fraction(-1, 4), Frac
 DRAWS = 100
 SILENCE = 200  # samples: twice as many as the longest record that begins at once
 SPIKE = 1000  # times
+MEAN = 100
+SMALL = 30
 
 
 def factor(root: Fraction | int) -> list[Fraction]:
@@ -155,11 +157,11 @@ def scaled_direct(system: ResidualSystem, factor_: Fraction, columns: Iterable[i
     return system.with_faults(system.F, matrix(G, system.m))
 
 
-def resized(system: ResidualSystem, faults: Fraction, outputs: Sequence[Fraction]) -> ResidualSystem:
-    """Return the system with F and G multiplied by `faults`, and row i of C and G by outputs[i]."""
-    F = [[x * faults for x in row] for row in fractions(system.F)]
+def resized(system: ResidualSystem, faults: Sequence[Fraction], outputs: Sequence[Fraction]) -> ResidualSystem:
+    """Return the system with column j of F and G multiplied by faults[j], and row i of C and G by outputs[i]."""
+    F = [[x * size for x, size in zip(row, faults, strict=True)] for row in fractions(system.F)]
     C = [[x * size for x in row] for size, row in zip(outputs, fractions(system.C), strict=True)]
-    G = [[x * faults * size for x in row] for size, row in zip(outputs, fractions(system.G), strict=True)]
+    G = [[x * size * own for x, own in zip(row, faults, strict=True)] for size, row in zip(outputs, fractions(system.G), strict=True)]
     return ResidualSystem(system.A, matrix(F, system.m), matrix(C, system.n), matrix(G, system.m))
 
 
@@ -179,3 +181,13 @@ def spiked(rng: Random, height: int, width: int) -> Matrix:
     rows = fractions(digits(rng, height, width))
     rows[height // 2] = [SPIKE * x for x in rows[height // 2]]
     return matrix(rows, width)
+
+
+def about_a_mean(rng: Random, height: int, width: int) -> Matrix:
+    """Return digits about MEAN, many times as large as they are."""
+    return matrix([[MEAN + x for x in row] for row in fractions(digits(rng, height, width))], width)
+
+
+def in_unlike_units(rng: Random, height: int, width: int) -> Matrix:
+    """Return digits, all columns but the first 2^-SMALL times as large."""
+    return matrix([[x / 2 ** (SMALL * (j > 0)) for j, x in enumerate(row)] for row in fractions(digits(rng, height, width))], width)

@@ -78,7 +78,7 @@ def _vectors(kind: Kind, system: ResidualSystem, rng: Random) -> Trouble:
         kind.what,
         tuple(kind.asks),
         _structure(kind.slug, system, known) if STRUCTURE in asked else None,
-        _model(kind.slug, system, known, rng) if MODEL in asked else None,
+        _model(kind, system, known, rng) if MODEL in asked else None,
         _faults(kind, system, known, rng) if asked & {RESIDUAL, RANKS, COUNT, SPACE, SIGNAL} else None,
     )
 
@@ -151,18 +151,18 @@ def _radii(apart: Callable[[Array], bool], centres: Sequence[complex]) -> list[f
 # -- models -----------------------------------------------------------------------------------------------------------------------------
 
 
-def _model(slug: str, system: ResidualSystem, known: Structure, rng: Random) -> IdentificationVector:
+def _model(kind: Kind, system: ResidualSystem, known: Structure, rng: Random) -> IdentificationVector:
     """B and D are F and G. The window is one longer than it must be."""
     if not known.observable:
         raise Unsuitable("not observable")
     n, m, p = system.n, system.m, system.p
     s = max(_observability_index(system) + 2, 2, -(-n // m) + 1)
     samples = 2 * (m + p + 1) * s + 20
-    x0, u = digits(rng, n, 1), digits(rng, samples, m)
+    x0, u = digits(rng, n, 1), kind.moves(rng, samples, m)
     driven = simulate(system, x0, u)
     if rank(excitation_matrix(driven, 2 * s)) < n + 2 * s * m:
         raise Unsuitable("the input does not excite")
-    return IdentificationVector(slug, system.A, system.F, system.C, system.G, x0, u, s, {})
+    return IdentificationVector(kind.slug, system.A, system.F, system.C, system.G, x0, u, s, {})
 
 
 def _bounded_model(vector: IdentificationVector) -> IdentificationVector:

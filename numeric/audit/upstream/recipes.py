@@ -47,12 +47,14 @@ MANNERS = {
     "prints-nothing": "While it is asked, the function writes nothing to standard output.",
     "leaves-no-files": "While it is asked, the function leaves no file in the working folder, nor in that of temporary files.",
     "leaves-the-state": "What a process has one of is after the call as it was before: random numbers of numpy and of the language, "
-    "handling of floating-point errors, filters of warnings, the working folder, the environment, threads.",
-    "right-on-long-records": "On a record of the length given, made by signs through the system, the answer differs from the "
-    "true one by no more than half of a unit in each quantity named.",
+    "handling of floating-point errors, filters of warnings, the working folder, the environment, threads, open files, signals, timers, "
+    "hooks, the log, the context of decimals, the mask of files, limits.",
+    "right-on-long-records": "On a record of the length given, made by signs through the system, some of them late or of many digits, the "
+    "answer differs from the true one by no more than half of a unit in each quantity named.",
     "earlier-answers-stay": "An answer is kept while two other questions of the same shapes are asked: it is the same in every bit after "
     "them, and none of its arrays is one that was given.",
-    "forgets-the-records": "Twenty records are asked about, one after another, and let go: of ten at least nothing is held any more.",
+    "forgets-the-records": "Twenty records are asked about, one after another, and let go: of ten at least nothing is held any more. Three "
+    "longer ones after that take less memory for good than half of what they are.",
     "inputs-untouched": "After the call every array that was given is as it was before.",
 }
 REFUSAL = "No answer is right. The function raises an error or answers nothing."

@@ -23,7 +23,7 @@ from .fault_vectors import FaultVector
 from .rationals import ROUNDING
 from .shipped_vectors import FORMAT, IdentificationVector, StructureVector
 
-VERSION = 2
+VERSION = 3
 SEED = 0
 
 

@@ -16,6 +16,7 @@ from faultspace.numeric.audit.checks.trouble import of_trouble
 from faultspace.numeric.audit.making.kinds_of_trouble import KINDS
 from faultspace.numeric.audit.subjects.opening import InProcess
 from faultspace.numeric.audit.vectors.trouble import default_troubles
+from tests.numeric.audit.unseen.catalogue import BY_NAME
 
 Functions = dict[str, Callable[..., Any]]
 
@@ -181,6 +182,11 @@ def _finite_memory(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
     return reference.residual(y, u, A / max(1.0, float(np.max(np.abs(np.linalg.eigvals(A)))) / 0.98), B, C, D)
 
 
+def _unseen(name: str) -> Functions:
+    """One of the mutants whose writer had not seen the kinds, and for which this one was made."""
+    return vars(BY_NAME[name].adapter)
+
+
 CARELESS: dict[str, Functions] = {
     "zeros-none": _zeros(lambda zeros: [*zeros, 0j]),
     "zeros-complex": _kept(lambda z: z.imag >= 0),
@@ -234,6 +240,12 @@ CARELESS: dict[str, Functions] = {
     "order-1": _model(lambda A, B, C, D: (A, B, C, -D)),
     "fault-begins-late": {"fault_dimension": _first_hundred},
     "fault-with-a-spike": {"reconstruct": _without_outliers},
+    "zeros-close": _unseen("structure-merges-close-zeros"),
+    "faults-in-unlike-units": _unseen("reconstruct-takes-small-columns-for-none"),
+    "outputs-in-unlike-units": _unseen("structure-balances-by-the-largest-output"),
+    "inputs-about-a-mean": _unseen("identify-removes-an-operating-point-where-there-seems-to-be-one"),
+    "inputs-in-unlike-units": _unseen("identify-calls-a-small-input-silent"),
+    "poles-of-no-short-fraction": _unseen("identify-rounds-the-trace"),
 }
 
 
