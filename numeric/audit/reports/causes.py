@@ -2,7 +2,7 @@
 
 Cause      results that share it, the first of which is shown
 folded     results that probably fail for one reason, before anything is known of the reason
-causes     folds joined where their explanations are the same
+causes     folds joined where their explanations are the same, and where there are many of one slug without any
 """
 
 from __future__ import annotations
@@ -13,6 +13,8 @@ from dataclasses import dataclass
 
 from ....base.sheets import counted
 from ..records import GREEN, CheckResult, Demand, Status
+
+FEW = 3
 
 
 @dataclass(frozen=True)
@@ -58,7 +60,20 @@ def causes(results: Iterable[CheckResult]) -> list[Cause]:
     for fold in folded(told(results)):
         known = next((one.explanation for one in fold if one.explanation), "")
         joined.setdefault((fold[0].function, known) if known else (fold[0].full_name,), []).extend(fold)
+    _gather(joined)
     return [Cause(tuple(group), next((one.explanation for one in group if one.explanation), "")) for group in joined.values()]
+
+
+def _gather(joined: dict[tuple[object, ...], list[CheckResult]]) -> None:
+    """Put together those of one slug and function that nothing explains, in the place of the first, where there are more than FEW."""
+    alike: dict[tuple[object, ...], list[tuple[object, ...]]] = {}
+    for key, group in joined.items():
+        if group[0].verdict == Status.FAIL and not any(one.explanation for one in group):
+            alike.setdefault((group[0].function, group[0].slug, group[0].claim), []).append(key)
+    for first, *others in alike.values():
+        if len(others) >= FEW:
+            for key in others:
+                joined[first] += joined.pop(key)
 
 
 _GRAVE: dict[str, int] = {Status.FAIL: -1}

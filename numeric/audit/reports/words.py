@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from ..records import CheckResult
-from .causes import Cause
+from ..records import CheckResult, Status
+from .causes import FEW, Cause
 
 MOST_NUMBERS = 8  # of an answer that is shown whole
 
@@ -31,6 +31,8 @@ def lines_of(cause: Cause, adapter: str) -> Iterator[str]:
         yield first.detail
     if cause.explanation:
         yield f"probably: {cause.explanation}"
+    elif len(vectors := list(dict.fromkeys(one.vector for one in cause.results))) > FEW and first.verdict == Status.FAIL:
+        yield f"all of: {', '.join(vectors)}"
     yield f"effect: {first.effect} ({first.severity})"
     yield f"again: faultspace audit {adapter} --check '{first.full_name}'"
 

@@ -69,6 +69,13 @@ def test_one_explanation_is_one_cause_whatever_the_vectors_but_not_whatever_the_
     ]
 
 
+def test_many_failures_of_one_slug_that_nothing_explains_are_one_entry_with_all_names() -> None:
+    many, few = [result("a", f"v{k}") for k in range(5)], [result("b", f"w{k}") for k in range(3)]
+    found = folding.causes([*many, *few])
+    assert [one.title for one in found][:2] == ["identify: fail: a[v0], and 4 checks of 4 other vectors", "identify: fail: b[w0]"]
+    assert "all of: v0, v1, v2, v3, v4" in list(lines_of(found[0], "mine.py")) and len(found) == 4
+
+
 VERDICTS = st.sampled_from([str(one) for one in Status])
 RESULTS = st.lists(
     st.builds(
