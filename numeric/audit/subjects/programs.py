@@ -172,13 +172,15 @@ class Program:
             return
         deadline = time.monotonic() + PATIENCE
         # One that was met and has ended since may have been followed by another: it counts until nobody is met.
-        while left := [one for one in self._marked() - self._own if not _helps(one)] + [
-            one for one in self._family - self._own if _lives(one)
-        ]:
+        while left := self._outside(self._own):
             if time.monotonic() > deadline:
-                self._family |= set(left)
-                raise Broken(f"left {len(left)} process{'' if len(left) == 1 else 'es'} behind: {_words(left[0])}")
+                self._family |= left
+                raise Broken(f"left {len(left)} process{'' if len(left) == 1 else 'es'} behind: {_words(next(iter(left)))}")
             time.sleep(GLANCE)
+
+    def _outside(self, own: set[psutil.Process]) -> set[psutil.Process]:
+        """Return those that are met now, or live on of those seen before, without the program's own."""
+        return {one for one in self._marked() - own if not _helps(one)} | {one for one in self._family - own if _lives(one)}
 
     def _glance(self, process: subprocess.Popen[bytes]) -> None:
         """Raises Broken for too much memory or too much on standard error."""
