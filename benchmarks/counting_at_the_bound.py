@@ -45,6 +45,7 @@ from faultspace.numeric.rows import laws as law_module
 from faultspace.numeric.rows import remainder as remainder_module
 from faultspace.numeric.rows.evidence import EXTRA, GONE, LONG, Evidence
 from faultspace.numeric.rows.fault_count import FAINTEST, MOST, count_faults
+from faultspace.numeric.rows.joint import PRECISION
 from faultspace.numeric.rows.laws import (
     ARRIVALS,
     ARRIVED,
@@ -53,7 +54,6 @@ from faultspace.numeric.rows.laws import (
     FLAT_MISFIT,
     HOPELESS,
     LOOSE,
-    PRECISION,
     SETTLED,
     SHAPE_MISFIT,
     SUFFICES,

@@ -3,10 +3,9 @@
     OPENBLAS_NUM_THREADS=1 python benchmarks/degree_misfits.py [--systems 12] [--seed 1] [--samples 1001 10000] [--limit SECONDS]
 
 The records are those of `space_at_the_bound_cells.py`; rows of the true degree and of all higher ones are fitted as `fault_space_by_rows`
-does. SLACK and LOOSE of `numeric/rows/degree.py` stand for the quantile regression: the ratio over the 90 % quantile of its law, less one,
-on a constant and on the root of the samples that the faults leave free over the degrees of freedom, of which one in ten lies above. The
-last columns say how often it does with the constants as they are set, and how often the stated probability is below 1 %, which is where a
-degree that suffices is refused.
+does. SLACK of `numeric/rows/degree.py` stands for what is printed, for one degree more and for several: the 90 % quantile of the ratio over
+that of its law, less one. The other columns say, for each kind of record, how often the ratio is beyond the 90 % quantile of its law with
+the constants as they are set, and how often the stated probability is below 1 %, which is where a degree that suffices is refused.
 """
 
 from __future__ import annotations
@@ -24,20 +23,20 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from space_at_the_bound_cells import CELLS, Cell
 
-from benchmarks.counting_at_the_bound import one_in_ten, quantile_regression, rate
+from benchmarks.counting_at_the_bound import one_in_ten, rate
 from faultspace.numeric.rows import space
-from faultspace.numeric.rows.degree import ENOUGH, LOOSE, SLACK, likelihood_ratio
+from faultspace.numeric.rows.degree import ENOUGH, SLACK, likelihood_ratio
 
 
-def ratios(cell: Cell, seed: int, number: int, samples: int) -> list[tuple[int, int, int, float, float]]:
-    """Return rows, degrees more, degrees of freedom, loose samples and ratio, for each higher degree, of one record."""
+def ratios(cell: Cell, seed: int, number: int, samples: int) -> list[tuple[int, int, int, float]]:
+    """Return rows, degrees more, degrees of freedom and ratio, for each higher degree, of one record."""
     trial = cell.trial(seed, number, samples)
     n, p, records = trial.model.n, trial.model.p, [(trial.y, trial.u)]
     rows, degree, most, shares = p - trial.n_v, n - trial.zeta, n + space.BEYOND, np.ones(p)
-    found = space.compared(records, space.pooled(records, -(-most // rows)), rows, degree, most, shares)
-    free, fits, channels = space.loose(records, found, shares, n), found.fits, found.data.moments.channels
+    found = space.compared(records, space.pooled(records, -(-most // rows)), rows, most, shares, n)
+    fits, channels = found.fits, found.data.moments.channels
     return [
-        (rows, more, more * channels, free, likelihood_ratio(found.data, fits[degree], fits[degree + more]))
+        (rows, more, more * channels, likelihood_ratio(found.moments, fits[degree], fits[degree + more]))
         for more in range(1, len(fits) - degree)
     ]
 
@@ -61,15 +60,13 @@ def main() -> None:
     ]
     for name, several in (("one degree more", False), ("several degrees more", True)):
         chosen = [one for one in found if (one[2] > 1) == several]
-        terms = np.array([[1.0, loose**0.5 / freedom] for _, _, _, freedom, loose, _ in chosen])
-        values = np.array([ratio / freedom / one_in_ten(freedom) - 1 for _, _, _, freedom, _, ratio in chosen])
-        best = quantile_regression(terms, values, 0.9)
-        print(f"{name}: SLACK {best[0]:.2f} (set: {SLACK:g}), LOOSE {best[1]:.2f} (set: {LOOSE[several]:g}), of {len(chosen)}")
-        expected = 1 + terms @ [SLACK, LOOSE[several]]
+        over = np.array([ratio / freedom / one_in_ten(freedom) for *_, freedom, ratio in chosen])
+        print(f"{name}: SLACK {np.quantile(over, 0.9) - 1:.2f} (set: {SLACK[several]:g}), of {len(chosen)}")
+        misfit = 1 + SLACK[several]
         for samples, rows in sorted({one[:2] for one in chosen}):
             here = [k for k, one in enumerate(chosen) if one[:2] == (samples, rows)]
-            beyond = sum(1 + values[k] > expected[k] for k in here)
-            refused = sum(scipy.stats.chi2.sf(chosen[k][5] / expected[k], chosen[k][3]) < ENOUGH for k in here)
+            beyond = sum(over[k] > misfit for k in here)
+            refused = sum(scipy.stats.chi2.sf(chosen[k][4] / misfit, chosen[k][3]) < ENOUGH for k in here)
             print(
                 f"    N = {samples}, rows: {rows}: beyond one in ten {rate(beyond, len(here))}, below {ENOUGH:g} {rate(refused, len(here))}"
             )

@@ -8,7 +8,8 @@ what the record could have been, and every statistic can be asked how it is dist
     redrawn         records y* = y - w + new noise, one after the other
 
 The mean of a likelihood ratio over such records, beside the degrees of freedom that it should have, is what it is divided by to have the
-law that is stated [B37]; so a few records do, where quantiles would ask for hundreds.
+law that is stated [B37]; so a few records do, where quantiles would ask for hundreds. What is left of y holds the faults and the noise in
+their directions, so that a fault fainter than the noise is not as faint in these records.
 """
 
 from __future__ import annotations

@@ -6,12 +6,11 @@ k signals; hence rows of degree d are as likely as those of degree D > d or less
 
     2 log(likelihood of D / likelihood of d) = samples k (level_d - level_D),
 
-which, where d suffices, follows a chi-squared law with (D - d) (p + n_u) degrees of freedom [W38] multiplied by a misfit. Two things
-keep the misfit above one. At d the parameters of D are not identified: rows of D are rows of d times factors that can have any root, and
-the best root is taken, a maximum over a process that has the stated law at each root [D87]. And the colour of the noise is an
-autoregression of finite order. So the misfit is measured: `benchmarks/degree_misfits.py` does it on fresh seeds, and the parametric
-bootstrap for a given record. Faults that leave frequencies to the noise add to it: there rows of higher degree turn to where the noise
-happens to be least.
+which, where d suffices, follows a chi-squared law with (D - d) (p + n_u) degrees of freedom [W38] multiplied by a misfit. What keeps the
+misfit above one is that at d the parameters of D are not identified: rows of D are rows of d times factors that can have any root, and
+the best root is taken, a maximum over a process that has the stated law at each root [D87]. So the misfit is measured:
+`benchmarks/degree_misfits.py` does it on fresh seeds, and the parametric bootstrap for a given record. The moments are those of
+`faint_faults.py`: under plain ones the ratio grows without end where faults leave frequencies to the noise.
 
     LeastDegree    the degree, the levels of all degrees, the probability that each suffices, and whether the answer is clear
     least_degree   from the fits of a course
@@ -33,13 +32,14 @@ from .joint import ROUNDING, JointMoments
 
 # Levels of the test; how often zeta is wrong under them, `benchmarks/space_at_the_bound.py` counts.
 ENOUGH, TOO_LOW = 0.01, 1e-6
-# Where the degree suffices, the ratio over its degrees of freedom exceeds one by SLACK, and the ratio itself by LOOSE times the root of how
-# many samples the faults leave free, for one degree more and for several. One more frees a real root, several free pairs of roots, which
-# can stand at any frequency; so the second is larger. `python benchmarks/degree_misfits.py` prints the quantile regression.
-SLACK, LOOSE = 0.6, (0.7, 1.8)
-# They were calibrated on records of up to 10 000 samples. What the rows miss within a segment of the moments does not fall with N, so that
-# on longer and longer records the ratio would end by refusing every degree. They are judged as if they had so many samples.
-CALIBRATED = 16000
+# Where the degree suffices, the ratio over its degrees of freedom exceeds one by so much, for one degree more and for several. One more
+# frees a real root, several free pairs of roots, which can stand at any frequency; so the second is larger. `python
+# benchmarks/degree_misfits.py` prints what makes the law true at one in ten.
+SLACK = 0.6, 2.0
+# They were calibrated on records of up to 10 000 samples, each counted twice by the moments. What the rows miss within a segment of the
+# moments does not fall with N, so that on longer and longer records the ratio would end by refusing every degree. They are judged as if
+# they had half so many samples.
+CALIBRATED = 32000
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,14 +69,9 @@ def freedom(data: JointMoments, low: KernelBasis, high: KernelBasis) -> int:
     return (_total(high) - _total(low)) * data.moments.channels
 
 
-def misfits(most: int, data: JointMoments, loose: float) -> list[float]:
-    """Return what the ratio over its degrees of freedom is, as a rule, for 1 to `most` degrees more where the degree suffices.
-
-    Faults leave so many `loose` samples free: at their frequencies rows turn to where the noise happens to be least, which lies below its
-    mean by a multiple of one over the root of their number.
-    """
-    channels = data.moments.channels
-    return [1 + SLACK + LOOSE[min(more, len(LOOSE)) - 1] * loose**0.5 / (more * channels) for more in range(1, most + 1)]
+def misfits(most: int) -> list[float]:
+    """Return what the ratio over its degrees of freedom is, as a rule, for 1 to `most` degrees more where the degree suffices."""
+    return [1 + SLACK[min(more, len(SLACK)) - 1] for more in range(1, most + 1)]
 
 
 def excess(data: JointMoments, low: KernelBasis, high: KernelBasis, misfits: Sequence[float]) -> float:

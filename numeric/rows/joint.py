@@ -17,7 +17,7 @@ S the cross-spectral moments of [y; u]. Without noise the rows are exactly those
     fitted          rows of given degrees from given starts and from those that the moments make least
     refitted        rows from one start alone
     course          one fit for every total degree 0, 1, .., each started from the one before
-    polished        the fits of a course, descended again for moments in finer bands
+    compared_fits   the fits of a course, descended again for the moments under which their degrees are compared
 """
 
 from __future__ import annotations
@@ -39,6 +39,8 @@ from ..space.tapered_moments import BANDS, CrossMoments, about_means, pooled_mom
 ROUNDS = 5
 # And of colour and rows that begin near their end.
 TURNS = 2
+# Share of the unit of a likelihood ratio that the last step of a descent may still gain: steps that crawl add up.
+PRECISION = 0.02
 # Rows of the largest moments that are fitted in an identification. A budget of time: fits take the cube of their number, 1 CPU second a
 # count at 35 rows, so that so many take some twenty. It decides no number.
 LARGEST = 100
@@ -168,21 +170,22 @@ def course(data: JointMoments, rows: int, most: int, *, shares: Array | None = N
     return fits
 
 
-def polished(data: JointMoments, fits: Sequence[KernelBasis], least: int, shares: Array | None = None) -> list[KernelBasis]:
-    """Return the fits of a course, those of total degree `least` and more descended again for moments in finer bands.
+def compared_fits(data: JointMoments, fits: Sequence[KernelBasis], shares: Array | None = None) -> list[KernelBasis]:
+    """Return fits of the same total degrees, each one more than that before, descended again for moments that are over the noise already
+    (`faint_faults.py`).
 
-    Within a band the rows are taken at its middle. A row of higher degree gains by that where it turns fast, and the more the more samples
-    a band has, so that likelihoods of different degrees are compared in narrow bands. Each is the better of the descents from
-    the row of the course and from the row before.
+    Each is the best of the descents from the rows given and from those found of one degree less. Moments of likelihoods that are compared
+    are in narrow bands: within a band the rows are taken at its middle, and a row of higher degree gains by that where it turns fast, the
+    more the more samples a band has.
     """
-    flat, found = 1 / data.samples, list(fits)
-    for total in range(least, len(fits)):
-        degrees = even_split(total, len(fits[total].rows))
-        starts: list[Sequence[Array]] = [fits[total].rows]
-        if total > least:
-            starts += [padded(found[total - 1].rows, degrees), padded(found[total - 1].rows, degrees, below=True)]
-        trials = [refitted(data, degrees, start, shares=shares, rounds=TURNS, flat=flat) for start in starts]
-        found[total] = min(trials, key=lambda trial: trial.level)
+    flat, found = PRECISION / data.samples, list[KernelBasis]()
+    for fit in fits:
+        degrees = [len(row) - 1 for row in fit.rows]
+        starts: list[Sequence[Array]] = [fit.rows]
+        if found:
+            starts += [padded(found[-1].rows, degrees), padded(found[-1].rows, degrees, below=True)]
+        trials = [refitted(data, degrees, start, shares=shares, rounds=0, flat=flat) for start in starts]
+        found.append(min(trials, key=lambda trial: trial.level))
     return found
 
 

@@ -40,7 +40,7 @@ from ..data.plain import plain
 from ..space.basis import ROUGH, KernelBasis, colour_of
 from .bootstrap import redrawn
 from .evidence import EXTRA, Evidence
-from .joint import JointMoments, course, even_split, fitted, padded, refitted
+from .joint import PRECISION, JointMoments, course, even_split, fitted, padded, refitted
 from .model_rows import model_rows
 from .remainder import Remainder, Sphericity, loose_samples, noise_shares, remainder, sphericity, whitened
 
@@ -50,8 +50,6 @@ TURNS = 4
 ARRIVED, ARRIVALS = 0.1, 10
 # Of the expected sphericity, what a turn gains at least for another one to follow.
 SETTLED = 0.05
-# Share of the unit of a likelihood ratio that the last step of a descent may still gain.
-PRECISION = 0.02
 # By so much the ratios of sphericity and of flatness, of several rows, exceed the stated laws where the rows are laws: one in ten is
 # beyond the tenth of the law times the misfit.
 SHAPE_MISFIT, FLAT_MISFIT = 1.3, 3.0

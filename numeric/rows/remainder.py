@@ -98,7 +98,7 @@ def noise_shares(rest: Remainder, start: Array) -> Array:
         seen = np.einsum("bik,bkl,bil->bi", weighted, rest.powers, weighted.conj(), optimize=True).real
         expected = np.einsum("bik,bki->bi", weighted, rest.gains).real
         over, under = np.zeros(len(lam)), np.zeros(len(lam))
-        for group in _groups(rest):
+        for group in groups(rest):
             spectrum = rest.weights[group] @ power[group] / (rest.weights[group].sum() * shape.shape[1])
             over += rest.weights[group] @ seen[group] / spectrum
             under += rest.weights[group] @ expected[group]
@@ -108,10 +108,10 @@ def noise_shares(rest: Remainder, start: Array) -> Array:
     return np.asarray(lam)
 
 
-def _groups(rest: Remainder) -> list[NDArray[np.int_]]:
-    """Return the bands of the moments that each band of the test joins: enough for SAMPLES samples a row."""
+def groups(rest: Remainder, bands: int = TEST_BANDS) -> list[NDArray[np.int_]]:
+    """Return the bands of the moments that each of so many `bands`, or fewer, joins: enough for SAMPLES samples a row."""
     most = int(rest.samples / (2 * SAMPLES * rest.powers.shape[1]))
-    return np.array_split(np.arange(len(rest.weights)), max(1, min(TEST_BANDS, len(rest.weights), most)))
+    return np.array_split(np.arange(len(rest.weights)), max(1, min(bands, len(rest.weights), most)))
 
 
 def whitened(rest: Remainder, shares: Array) -> ComplexArray:
@@ -131,7 +131,7 @@ def unrelated(rest: Remainder) -> float:
     """
     p = rest.powers.shape[1]
     mean, variance, ratio, j = 0.0, 0.0, 0.0, np.arange(p)
-    for group in _groups(rest):
+    for group in groups(rest):
         share = float(rest.weights[group].sum())
         count = max(rest.samples * share / 2, p + 1.0)
         # The colours may change within the band: each signal is whitened first.
@@ -162,7 +162,7 @@ def sphericity(rest: Remainder, shares: Array, misfit: float = 1.0) -> Sphericit
     k = E.shape[1]
     mean, variance, ratio = 0.0, 0.0, 0.0
     j = np.arange(k)
-    for group in _groups(rest):
+    for group in groups(rest):
         share = float(rest.weights[group].sum())
         count = max(rest.samples * share / 2, k + 1.0)
         pooled = np.tensordot(rest.weights[group] / share, E[group], 1)

@@ -6,7 +6,7 @@ row ([G25] problem (11)). Of k rows with degrees eta_i there are sum (eta_i + 1)
 that do not fit exactly contradict each other nowhere: N_y O_s = 0, which holds for true ones, need not be imposed.
 
     pooled                  the moments of the experiments that carry such rows, as they are counted on
-    compared, loose         the fits whose likelihoods decide the total degree, and the samples that the faults leave free
+    compared                the fits whose likelihoods decide the total degree
     fault_space_by_rows     the space, its dimension with a probability, and the angle by which it may be off where A, C are right
     identified_fault_space  the same for an identified model, whose error is in the angle
     n_z                     n_v + n - (total degree of the rows): of an order that is too high by one, one too many
@@ -43,11 +43,11 @@ from ..space.result import FaultSpaceEstimate, SpaceOfValley, SpaceUncertainty, 
 from ..space.tapered_moments import BANDS, SEGMENT
 from ..space.uncertainty import space_uncertainty, turned_by_model
 from .bootstrap import redrawn
-from .degree import CALIBRATED, SLACK, TOO_LOW, LeastDegree, freedom, least_degree, likelihood_ratio, misfits
+from .degree import SLACK, LeastDegree, freedom, least_degree, likelihood_ratio, misfits
 from .evidence import arx_of, longest_degree
+from .faint_faults import even_moments
 from .from_above import from_above
-from .joint import JointMoments, course, even_split, joint_moments_experiments, padded, polished, refitted
-from .remainder import as_signals, loose_samples
+from .joint import ROUNDING, TURNS, JointMoments, compared_fits, course, even_split, joint_moments_experiments, refitted
 
 Experiments = Sequence[tuple[Array, Array]]
 # Frequencies of a segment in each band of the likelihoods that decide.
@@ -57,9 +57,6 @@ NUMBERS = 2**22
 # Total degrees beyond the order by which it is tested.
 BEYOND = 1
 SEED = 20251123
-# Records of the bootstrap where the answer rests on the misfit. The ratio of one degree more has four degrees of freedom or more, so that
-# the mean of ten is known to sqrt(2 / 4 / 10), 22 %.
-DRAWS = 10
 # What multiplies the model's part of the angle within a valley: the curvature of the likelihood at an estimate is larger, by chance, than
 # it is at the truth. `python benchmarks/space_at_the_bound.py --calibrate` repeats the measurement: the 95 % quantile of the tangent of the
 # angle over that of the stated one, not widened, where the estimate's own valley is alone. It was 1.45 (seeds 60001, 61000 and 62001, 68
@@ -76,17 +73,17 @@ def fault_space_by_rows(
     *,
     n_v: int,
     noise_level: ArrayLike | None = None,
-    draws: int | None = None,
+    draws: int = 0,
 ) -> FaultSpaceEstimate:
     """Estimate the fault space of y (N, p), u (N, n_u) for A (n, n), C (p, n) of the model and n_v < p faults.
 
     Where u is None, y is a list of pairs (y, u), each an experiment of the same system with an initial state of its own; experiments too
     short for the rows are left out.
 
-    The number of zeros is decided by likelihood ratios of a stated level (`numeric/rows/degree.py`). Their misfit is that of a formula, and
-    where the answer rests on it, on records of up to 16 000 samples, it is measured on ten records of the parametric bootstrap, a tenth of
-    a second each at a thousand samples. `draws` is the number of these records, which are then made in any case: 0 leaves it at the
-    formula, and more make the answer surer. The angle of the answer takes n_z, A and C as right:
+    The number of zeros is decided by likelihood ratios of a stated level (`numeric/rows/degree.py`), whose misfit is calibrated. `draws`
+    is a number of records of the parametric bootstrap from which the misfit of this record is estimated in its place; ten take seconds at
+    a thousand samples. Faults are as loud there as they are here together with the noise, so that where they are faint the misfit is
+    uncertain. The angle of the answer takes n_z, A and C as right:
     `identified_fault_space` has the error of an identified model in it. The basis is in the states of A and the units of y, which do not
     matter otherwise. The noise is taken to have one colour, and powers as those of `noise_level` (one number or one an output, in units of
     y), of which only the ratios matter; without it the same power relative to the deviation of each output. Noise of other ratios turns
@@ -116,7 +113,7 @@ def identified_fault_space(
     *,
     n_v: int,
     noise_level: ArrayLike | None = None,
-    draws: int | None = None,
+    draws: int = 0,
 ) -> FaultSpaceEstimate:
     """Estimate the fault space of y (N, p), u (N, n_u) for a model that `arx_reduction` found in such data, whose error is in the angle.
 
@@ -247,29 +244,33 @@ def pooled(records: Experiments, degree: int, bands: int = BANDS) -> JointMoment
 
 @dataclass(frozen=True, eq=False)
 class Compared:
-    """The fits of total degrees 0, 1, .., whose likelihoods are compared, and the moments that these are of."""
+    """The fits of total degrees 0, 1, .. of a course, `data` in bands as narrow as memory allows, and the `moments` under which the
+    likelihoods of the degrees are compared, with the `fits` to these."""
 
+    course: list[KernelBasis]
     data: JointMoments
+    moments: JointMoments
     fits: list[KernelBasis]
 
 
-def compared(records: Experiments, wide: JointMoments, rows: int, least: int, most: int, shares: Array) -> Compared:
-    """Return the likeliest rows of total degrees up to `most`, from `least` on in bands as narrow as memory allows; `wide` are moments of
-    the same experiments in the usual bands, in which they are sought."""
+def compared(records: Experiments, wide: JointMoments, rows: int, most: int, shares: Array, n: int, arx: Arx | None = None) -> Compared:
+    """Return the likeliest rows of total degrees up to `most`; `wide` are moments of the same experiments in the usual bands, in which they
+    are sought, `arx` is a model of such data, where there is one, and n an order for another."""
     fits = from_above(wide, course(wide, rows, most, shares=shares), shares=shares)
     bands = max(BANDS, min(SEGMENT // 2 // A_BAND, NUMBERS // int(wide.moments.moments[0].size)))
     data = pooled(records, wide.degree, bands)
-    return Compared(data, polished(data, fits, least, shares))
+    moments = _even(records, data, refitted(data, even_split(most, rows), fits[-1].rows, shares=shares), shares, n, arx)
+    return Compared(fits, data, moments, compared_fits(moments, fits, shares))
 
 
-def loose(records: Experiments, found: Compared, shares: Array, n: int, arx: Arx | None = None) -> float:
-    """Return how many samples stand at frequencies where the faults leave more directions to the noise than there are rows; `arx` is a
-    model of such data, where there is one, and n an order for another."""
-    data = found.data
-    model = arx_of(records, n, data.scale, arx)
-    if model is None:
-        return 0.0
-    return loose_samples(as_signals(model.disturbance(data.moments.angles), data.moments), data, found.fits[-1], shares)
+def _even(records: Experiments, data: JointMoments, fit: KernelBasis, shares: Array, n: int, arx: Arx | None) -> JointMoments:
+    """Return the moments under which degrees are compared, of the noise that these rows of the highest degree leave: those that are even
+    where the faults are faint, or the plain ones where the record gives no ARX model, or its noise is rounding."""
+    if fit.level > np.log(ROUNDING) and (model := arx_of(records, n, data.scale, arx)) is not None:
+        longer = [record for record in records if len(record[0]) > model.order]
+        return even_moments(longer, data, fit, model, shares)
+    over = data.moments.moments / fit.spectrum[:, None, None]
+    return replace(data, moments=replace(data.moments, moments=over))
 
 
 def _fitted(
@@ -279,7 +280,7 @@ def _fitted(
     C: Array,
     n_v: int,
     noise_level: ArrayLike | None,
-    draws: int | None,
+    draws: int,
     arx: Arx | None = None,
 ) -> _Rows | FaultSpaceEstimate:
     """Return the rows of the total degree that the data accept, or what there is to say where no row is left."""
@@ -304,19 +305,21 @@ def _fitted(
         powers = (noise_deviations(noise_level, p) / data.scale[:p]) ** 2
         shares = powers / np.exp(np.mean(np.log(powers)))
     least = n + faults - largest
-    both = compared(records, data, rows, least, seen + BEYOND, shares)
-    data, fits = both.data, both.fits
-    chosen = least_degree(data, fits, least, seen, misfits(len(fits) - 1, data, loose(records, both, shares, n, arx)))
-    widened = 1 + SLACK
-    if draws is None:
-        plain = least_degree(data, fits, least, seen, misfits(len(fits) - 1, data, 0.0))
-        sure = (plain.decided, plain.degree) == (True, chosen.degree) and chosen.decided
-        hopeless = chosen.probabilities[chosen.degree] < TOO_LOW
-        draws = 0 if sure or hopeless or data.samples > CALIBRATED else DRAWS
+    both = compared(records, data, rows, seen + BEYOND, shares, n, arx)
+    chosen = least_degree(both.moments, both.fits, least, seen, misfits(len(both.fits) - 1))
+    widened = 1 + SLACK[0]
     if draws:
-        drawn = _misfits(records, both, chosen, shares, draws)
-        chosen, widened = least_degree(data, fits, least, seen, drawn), max(widened, drawn[0])
-    return _Rows(data, fits[chosen.degree], chosen, faults, largest, widened)
+        drawn = _misfits(records, both, chosen, shares, draws, n)
+        chosen, widened = least_degree(both.moments, both.fits, least, seen, drawn), max(widened, drawn[0])
+    return _Rows(both.data, _shown(both, chosen.degree, shares), chosen, faults, largest, widened)
+
+
+def _shown(both: Compared, degree: int, shares: Array) -> KernelBasis:
+    """Return the likeliest rows of a total degree, whose covariance is known."""
+    degrees, flat = even_split(degree, len(both.fits[degree].rows)), 1 / both.data.samples
+    starts = (both.course[degree].rows, both.fits[degree].rows)
+    trials = [refitted(both.data, degrees, start, shares=shares, rounds=TURNS, flat=flat) for start in starts]
+    return min(trials, key=lambda trial: trial.level)
 
 
 def _solved(rows: _Rows, outputs: Array, A: Array, C: Array, model_root: Array) -> _Solved:
@@ -369,21 +372,18 @@ def _observed(model_root: Array, coordinates: ObservedCoordinates) -> Array:
     return np.asarray(np.einsum("ir,rcq,cj->ijq", left, changes, np.linalg.inv(coordinates.T)).reshape(model_root.shape))
 
 
-def _misfits(records: Experiments, found: Compared, chosen: LeastDegree, shares: Array, draws: int) -> list[float]:
+def _misfits(records: Experiments, found: Compared, chosen: LeastDegree, shares: Array, draws: int, n: int) -> list[float]:
     """Return the means of the ratios over their degrees of freedom, for one degree more, two, .., on records made from the chosen fit."""
     data, fits, ratios = found.data, found.fits, []
     kept = [record for record in records if longest_degree(*record) >= data.degree]
-    made = [redrawn(y, u, data, fits[chosen.degree], shares, draws, SEED + number) for number, (y, u) in enumerate(kept)]
+    fit, highest = _shown(found, chosen.degree, shares), _shown(found, len(fits) - 1, shares)
+    made = [redrawn(y, u, data, fit, shares, draws, SEED + number) for number, (y, u) in enumerate(kept)]
     for outputs in zip(*made, strict=True):
         pairs = [(y, u) for y, (_, u) in zip(outputs, kept, strict=True)]
         again = joint_moments_experiments(pairs, data.degree, len(data.moments.angles))
-        count = len(fits[0].rows)
-        steps = [refitted(again, even_split(chosen.degree, count), fits[chosen.degree].rows, shares=shares)]
-        for total in range(chosen.degree + 1, len(fits)):
-            degrees = even_split(total, count)
-            starts = [fits[total].rows, padded(steps[-1].rows, degrees), padded(steps[-1].rows, degrees, below=True)]
-            steps.append(min((refitted(again, degrees, start, shares=shares) for start in starts), key=lambda fit: fit.level))
-        ratios.append([likelihood_ratio(again, steps[0], step) / freedom(again, steps[0], step) for step in steps[1:]])
+        moments = _even(pairs, again, highest, shares, n, None)
+        steps = compared_fits(moments, fits[chosen.degree :], shares)
+        ratios.append([likelihood_ratio(moments, steps[0], step) / freedom(moments, steps[0], step) for step in steps[1:]])
     return [max(float(mean), 1.0) for mean in np.mean(ratios, axis=0)] or [1.0]
 
 

@@ -43,7 +43,7 @@ def test_a_course_that_has_stuck_goes_on_from_above() -> None:
     fits = course(data, 2, 4)
     better = from_above(data, fits)
     assert all(new.level <= old.level for new, old in zip(better, fits, strict=True)) and better[3].level < fits[3].level - 0.005
-    before, after = (least_degree(data, each, 0, 3, misfits(4, data, 0.0)) for each in (fits, better))
+    before, after = (least_degree(data, each, 0, 3, misfits(4)) for each in (fits, better))
     assert not before.decided and "the order is too low" in before.reason and after.decided and after.degree == 3
 
 

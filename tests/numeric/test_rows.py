@@ -445,22 +445,18 @@ def test_the_bootstrap_decides_the_degree_too() -> None:
     np.testing.assert_array_equal(careful.basis, quick.basis)
 
 
-def test_the_bootstrap_is_asked_where_the_answer_rests_on_the_misfit_and_there_alone() -> None:
+def test_what_is_nearly_a_zero_is_none_where_the_data_tell() -> None:
     zero = planted(31, (0.5,), n=3, p=3, m=2)
-    near = replace(zero, G=zero.G + 0.1 * np.random.default_rng(31).standard_normal(zero.G.shape))  # with no zero, nearly
+    near = replace(zero, G=zero.G + 0.1 * np.random.default_rng(31).standard_normal(zero.G.shape))
     y, u = joint_record(near, 31, 500, 40)
-    asked, formula = (fault_space_by_rows(y, u, near.A, near.C, n_v=2, draws=draws) for draws in (None, 0))
-    assert formula.zeta is None and asked.zeta == 0, (formula.reason, asked.reason)
-    far = replace(zero, G=zero.G + np.random.default_rng(31).standard_normal(zero.G.shape))
-    y, u = joint_record(far, 31, 500, 40)
-    with patch("faultspace.numeric.rows.space.redrawn", side_effect=AssertionError):
-        assert fault_space_by_rows(y, u, far.A, far.C, n_v=2).zeta == 0
+    found = fault_space_by_rows(y, u, near.A, near.C, n_v=2)
+    assert found.zeta == 0, found.reason
 
 
 def test_outputs_of_units_that_rounding_cannot_hold_together_are_refused() -> None:
     system = planted(26, (0.5,), n=1, p=2, m=1)
     y, u = joint_record(system, 26, 100, 40)
-    near, far = np.array([1e9, 1e-9]), np.array([1e140, 1e-20])
+    near, far = np.array([1e9, 1e-9]), np.array([1e150, 1e-150])
     found = fault_space_by_rows(y * near, u, system.A, system.C * near[:, None], n_v=1)
     assert found.uncertainty is not None and np.isfinite(found.uncertainty.angle())
     for C in system.C, system.C * far[:, None]:
