@@ -10,18 +10,19 @@ tried again when that is there, while those that ask for none are done. What is 
 from __future__ import annotations
 
 import time
+from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from importlib import import_module
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from threading import local
 from typing import Any
 
 from joblib import Parallel, delayed
 
 from ..base.progress import silent
-from .evidence.material import Material, Wanted
+from .evidence.material import Carried, Folder, Material, Shelf, Wanted
 from .hypotheses import ablations
 from .trust.checker import Malformed, Rejected
 from .verdict.ablation import ablate
@@ -83,46 +84,60 @@ class Answer:
     seconds: float
 
 
-def decided(bench: Workbench, tasks: Sequence[Task]) -> dict[Task, Answer]:
-    """Return what each task comes to. `bench` then has the material that was made."""
-    with TemporaryDirectory(prefix="faultspace-") as folder:
-        try:
-            return _in_rounds(bench, tasks, Path(folder))
-        finally:
-            _bench.cache_clear()  # where one process does it all, it is this one
+def decided(bench: Workbench, tasks: Sequence[Task], *, elsewhere: bool = False) -> dict[Task, Answer]:
+    """Return what each task comes to. `bench` then has the material that was made.
+
+    `elsewhere` says that tasks may be done on other machines, which do not see a folder of this one.
+    """
+    try:
+        if elsewhere:
+            return _in_rounds(bench, tasks, Carried())
+        with TemporaryDirectory(prefix="faultspace-") as folder:
+            return _in_rounds(bench, tasks, Folder(Path(folder)))
+    finally:
+        vars(_mine).clear()  # where one process does it all, it is this one
 
 
-def _in_rounds(bench: Workbench, tasks: Sequence[Task], shelf: Path) -> dict[Task, Answer]:
+def _in_rounds(bench: Workbench, tasks: Sequence[Task], shelf: Shelf) -> dict[Task, Answer]:
     answers: dict[Task, Answer] = {}
+    needed: dict[Task, set[str]] = defaultdict(set)
     # The claims without their hypotheses take longest, so that they come first.
     waiting = sorted(tasks, key=lambda task: isinstance(task, Check))
     while waiting:
         wanted: dict[str, Material] = {}
         later = []
-        stream = Parallel(n_jobs=bench.jobs, return_as="generator")(delayed(_tried)(task, bench.effort, str(shelf)) for task in waiting)
+        calls = [delayed(_tried)(task, bench.effort, shelf.part(needed[task])) for task in waiting]
+        stream = Parallel(n_jobs=bench.jobs, return_as="generator")(calls)
         for task, answer in zip(waiting, stream, strict=True):
             if isinstance(answer, Answer):
                 answers[task] = answer
                 bench.progress(str(task), len(answers), len(tasks))
             else:
                 wanted |= {kind.name: kind for kind in answer}
+                needed[task].update(kind.name for kind in answer)
                 later.append(task)
-        bench.make(list(wanted.values()), shelf)
+        bench.make([kind for name, kind in wanted.items() if name not in shelf], shelf)
         waiting = later
     return answers
 
 
-def _tried(task: Task, effort: str, shelf: str) -> Answer | tuple[Material, ...]:
+def _tried(task: Task, effort: str, shelf: Shelf) -> Answer | tuple[Material, ...]:
     try:
         return _done(task, _bench(effort, shelf))
     except Wanted as wanted:
         return wanted.kinds
 
 
-@lru_cache(maxsize=1)
-def _bench(effort: str, shelf: str) -> Workbench:
-    """Return the workbench of this process, which keeps what it read and found out for the next task."""
-    return Workbench(effort, 1, silent, Path(shelf))
+_mine = local()  # a Dask worker does several tasks at a time in one process, where it has several threads
+
+
+def _bench(effort: str, shelf: Shelf) -> Workbench:
+    """Return the workbench of this thread, which keeps what it read and found out for the next task of the run."""
+    if getattr(_mine, "run", None) != (effort, shelf.run):
+        _mine.run, _mine.bench = (effort, shelf.run), Workbench(effort, 1, silent, shelf)
+    bench: Workbench = _mine.bench
+    bench.shelf = shelf
+    return bench
 
 
 def _done(task: Task, bench: Workbench) -> Answer:

@@ -7,11 +7,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Collection, Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 
 from ..base.errors import InvalidInput, shorten
 from ..base.progress import Progress, silent
 from ..base.sheets import counted
+from ..base.workers import pool
 from .adversary.attacking import attacking, of_reading, of_row
 from .deciding import Check, Without, decided
 from .hypotheses import ablations
@@ -29,17 +31,24 @@ TRUSTED = "this trusts Rocq's kernel, MathComp, and files compiled before in you
 
 
 def verify(
-    claims: Sequence[str] | str | None = None, *, effort: str = "quick", jobs: int = -1, on_progress: Progress | None = None
+    claims: Sequence[str] | str | None = None,
+    *,
+    effort: str = "quick",
+    jobs: int = -1,
+    scheduler: str | None = None,
+    on_progress: Progress | None = None,
 ) -> Report:
     """Decide every claim of the ledger, or those with the ids `claims`, now: each reading gets a verdict and the evidence it rests on.
 
     `claims` is a list of ids or one id, None for all; `effort` is "quick" or "full", `jobs` a number of processes (-1: one for each core),
+    `scheduler` the address of a Dask scheduler, whose workers do the work then (they need this package in the same version),
     and `on_progress(stage, done, total)` hears how far the run is. The Report has `claims`, `hypotheses`, `as_expected` (whether every
     verdict is the one that the ledger expects), `certificates()`, `summary()` and `plot()`. Most claims take tens of seconds, because the
     systems and certificates that their readings rest on are made anew; the one of the example below needs less than a second. The claims
     are those of [G25].
 
-    Raises InvalidInput for an unknown claim or effort, an empty list, and a number of processes that is neither -1 nor positive.
+    Raises InvalidInput for an unknown claim or effort, an empty list, a number of processes that is neither -1 nor positive, and one
+    beside a scheduler; InvalidData for a cluster that cannot be used.
 
     >>> import faultspace as fs
     >>> report = fs.verify(["example-v"], jobs=1)
@@ -53,6 +62,8 @@ def verify(
         raise InvalidInput(f"effort: got {shorten(effort)}, expected one of {', '.join(EFFORTS)}")
     if type(jobs) is not int or (jobs != -1 and jobs < 1):
         raise InvalidInput(f"jobs: got {shorten(jobs)}, expected an integer >= 1, or -1 for one process a core")
+    if scheduler is not None and jobs != -1:
+        raise InvalidInput(f"jobs: got {jobs} and a scheduler, expected one of them: the cluster decides how many work")
     ledger = {claim.id: claim for claim in load()}
     if isinstance(claims, str):
         claims = [claims]
@@ -66,11 +77,12 @@ def verify(
     started = time.perf_counter()
     bench = Workbench(effort, jobs, report)
     total = sum(len(claim.readings) for claim in chosen)
-    machine = _theorems(chosen, report)
-    attacks = attacking({claim.id for claim in chosen}, effort, jobs, report)
     experiments = [one for one in ablations() if one.claim in {claim.id for claim in chosen}]
     checks = dict.fromkeys(Check(reading.check) for claim in chosen for reading in claim.readings)  # several readings come down to one
-    answers = decided(bench, [*checks, *(Without(one.name) for one in experiments)])
+    with nullcontext() if scheduler is None else pool(jobs, scheduler):
+        machine = _theorems(chosen, report)
+        attacks = attacking({claim.id for claim in chosen}, effort, jobs, report)
+        answers = decided(bench, [*checks, *(Without(one.name) for one in experiments)], elsewhere=scheduler is not None)
     results: list[ClaimResult] = []
     for claim in chosen:
         readings = []

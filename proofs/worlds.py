@@ -30,6 +30,7 @@ from ..base.progress import silent, working
 from ..base.workers import pool
 from .deciding import Check
 from .evidence.corpus import CORPUS, examine
+from .evidence.material import Folder
 from .evidence.orbits_by_stages import LARGEST, orbit_count, orbits_over, pairs
 from .verdict.verdicts import Verdict
 from .verdict.workbench import Workbench
@@ -69,7 +70,7 @@ def examined(unit: Unit) -> Found:
     n, p, m, place = unit
     started = time.process_time()
     found: Found = {"n": n, "p": p, "m": m, "pair": place, "orbits": 0, "systems": 0, "accepted": 0, "failing": []}
-    bench = Workbench("quick", 1, silent, Path())
+    bench = Workbench("quick", 1, silent, Folder(Path()))
     try:
         evidence = [examine(f"systems over GF(2), n={n} p={p} m={m}", one.system, one.size) for one in orbits_over(pairs(n, m)[place], p)]
     except Exception as error:  # a certificate that is refused is a finding, and the other units go on

@@ -3,6 +3,7 @@
     is_rational         a sympy Rational
     is_matrix           a sympy Matrix of any kind
     is_domain_matrix    a DomainMatrix
+    is_expression       a polynomial or another expression
 
 No value is sympy's before somebody has loaded sympy.
 """
@@ -26,6 +27,11 @@ def is_matrix(value: object) -> TypeGuard[Any]:
 def is_domain_matrix(value: object) -> TypeGuard[Any]:
     """Return whether it is a sympy DomainMatrix."""
     return _is(value, "sympy.polys.matrices", "DomainMatrix")
+
+
+def is_expression(value: object) -> TypeGuard[Any]:
+    """Return whether it is a sympy Poly or Expr."""
+    return _is(value, "sympy", "Poly") or _is(value, "sympy", "Expr")
 
 
 def _is(value: object, module: str, name: str) -> bool:

@@ -24,14 +24,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import sympy
-
 from ...base.errors import InvalidInput, shorten
 from ...base.sheets import Shown
 from ..algebra import polynomials
 from ..algebra.matrices import Matrix, solve_left, stacked
 from ..algebra.notation import named_matrix, polynomial
 from ..algebra.polynomials import Poly, written
+from ..algebra.sympy_values import is_expression
 from ..algebra.writing import sum_of_powers
 from ..structure.inversion import delay_unknown_state, left_inverse
 from ..structure.kernel_rows import kernel_representation
@@ -187,7 +186,9 @@ def _realising(pencil: Exceptional, free: Poly) -> Matrix:
 
 def _polynomial(pencil: Exceptional, desired: object) -> Poly:
     field = pencil.system.field
-    if isinstance(desired, sympy.Poly | sympy.Expr):
+    if is_expression(desired):
+        import sympy  # which is loaded, where there is an expression of it
+
         try:
             poly = desired if isinstance(desired, sympy.Poly) else sympy.Poly(desired, *(desired.free_symbols or {sympy.Symbol("q")}))
         except sympy.PolynomialError:

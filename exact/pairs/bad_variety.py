@@ -22,7 +22,6 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
-import sympy
 from flint import Ordering, nmod_mpoly_ctx
 
 from ...base.errors import InvalidInput
@@ -175,6 +174,8 @@ def bad_equations(pencil: Exceptional | System) -> BadEquations:
             f"bad set: P has {n_z} x {r} entries, at most {MAX_ENTRIES} are expanded; coefficient_forms gives the equations in the "
             f"minors of P, judge decides one P"
         )
+    import sympy  # here and below, where it is needed
+
     symbols = sympy.Matrix(n_z, r, lambda i, j: sympy.Symbol(f"p{i + 1}{j + 1}"))
     subsets, forms = coefficient_forms(forms_of_determinant(pencil))
     minors = [symbols.extract(list(J), list(range(r))).det(method="berkowitz") for J in subsets]
@@ -211,11 +212,15 @@ def _codimension(degrees: Sequence[int], indices: Sequence[int]) -> int:
 
 def _factors(constant: Any, powers: Sequence[tuple[Any, int]]) -> tuple[tuple[Any, int], ...]:
     """Return the constant, unless it is 1, and the powers."""
+    import sympy
+
     return (*([(sympy.sympify(constant), 1)] if constant != 1 else []), *((g, int(e)) for g, e in powers))
 
 
 def _reduced_and_factored(f: Any, symbols: Any, prime: int) -> tuple[Any, tuple[tuple[Any, int], ...]]:
     """The result is f modulo the prime with residues in 0..p-1, and its factors, by FLINT: sympy factors in one unknown only."""
+    import sympy
+
     if not len(symbols):
         return f % prime, _factors(f % prime, [])
     context = nmod_mpoly_ctx.get([str(x) for x in symbols], modulus=prime, ordering=Ordering.lex)
@@ -231,4 +236,6 @@ def _reduced_and_factored(f: Any, symbols: Any, prime: int) -> tuple[Any, tuple[
 
 
 def _sympy_number(value: Any, field: Rationals | PrimeField) -> Any:
+    import sympy
+
     return sympy.Integer(int(value)) if isinstance(field, PrimeField) else sympy.Rational(int(value.p), int(value.q))

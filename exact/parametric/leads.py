@@ -22,9 +22,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from sympy import ZZ
-from sympy.polys.rings import ring as polynomial_ring
-
 from ..algebra.validation import natural
 from .case_tree import Polynomial, Ring
 from .identities import SecondRoute
@@ -63,6 +60,9 @@ def lead_identities(n: int, nu: int, m: int, p: int, J: int) -> LeadIdentities:
     shapes = {"a": (n, n), "b": (n, nu), "c": (p, n), "d": (p, nu), "f": (n, m), "g": (p, m)}
     shapes |= {f"phi{j}_": (m, nu) for j in range(J + 1)}
     names = [f"{letter}{i + 1}{k + 1}" for letter, (h, w) in shapes.items() for i in range(h) for k in range(w)]
+    from sympy import ZZ  # here, where it is needed
+    from sympy.polys.rings import ring as polynomial_ring
+
     ring, *_ = polynomial_ring(names, ZZ)
     rows = n + 1
     response = _pulse_response(_entries(ring.gens, shapes), ring, J, 2 * rows)
@@ -154,4 +154,6 @@ def _sum(tables: Sequence[Table]) -> list[list[Any]]:
 
 def _read_back(ring: Ring, f: Any) -> Polynomial:
     """The result is sympy's polynomial of FLINT's."""
+    from sympy import ZZ
+
     return ring.from_dict({tuple(map(int, exponents)): ZZ(int(c)) for exponents, c in f.to_dict().items()})

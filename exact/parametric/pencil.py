@@ -17,8 +17,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-from sympy.polys.matrices import DomainMatrix
-
 from .case_tree import Branch, Congruence, Polynomial, UnitProduct, coefficients
 from .stratification import Indeterminates, Row
 
@@ -99,6 +97,8 @@ def indeterminate_pencil(entries: Indeterminates, F: Table, G: Table) -> list[li
 
 def determinant(entries: Indeterminates, matrix: Sequence[Sequence[Polynomial]], minor: Minor) -> Polynomial:
     """The result is the minor, by sympy's division-free characteristic polynomial."""
+    from sympy.polys.matrices import DomainMatrix  # here, where it is needed
+
     rows, columns = minor
     size = len(rows)
     if size == 0:

@@ -27,9 +27,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
 
-from sympy import ZZ
-from sympy.polys.rings import ring as polynomial_ring
-
 from ...base.errors import InvalidInput
 from ...base.sheets import Shown
 from ..algebra.validation import natural
@@ -82,6 +79,9 @@ def indeterminates(n: int, p: int, m: int, more: Sequence[str] = ()) -> Indeterm
         natural(value, name, most=LARGEST_DIMENSION)
     shapes = {"a": (n, n), "c": (p, n), "f": (n, m), "g": (p, m)}
     names = [f"{letter}{i + 1}{j + 1}" for letter, (h, w) in shapes.items() for i in range(h) for j in range(w)]
+    from sympy import ZZ  # here, where it is needed: it takes longer to load than most answers
+    from sympy.polys.rings import ring as polynomial_ring
+
     ring, *generators = polynomial_ring([*names, "q", *more], ZZ)
     entries = iter(generators)
     a, c, f, g = (tuple(tuple(next(entries) for _ in range(w)) for _ in range(h)) for h, w in shapes.values())

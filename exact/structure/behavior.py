@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from ...base.errors import InvalidInput
@@ -150,6 +151,7 @@ class Comparison(Shown):
         return {"equivalent": self.equivalent, "first_difference": self.first_difference, "word": None if word is None else word.to_json()}
 
 
+@lru_cache(maxsize=4)  # whoever compares two systems asks for both directions, and whoever certifies it asks again
 def separation(inner: ResidualSystem, outer: KernelRepresentation) -> Separation | None:
     """The result is the shortest word of `inner` that is not a word of `outer`, or None where B(inner) is contained in B(outer)."""
     _comparable(inner, outer.system)

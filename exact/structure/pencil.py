@@ -4,6 +4,7 @@
     infinite_zero_orders         delta_1 <= ... <= delta_r: #{delta <= k} = rank T_(k+1) - rank T_k
     invariant_zero_polynomial    product of the invariant polynomials, monic, as a Poly, left-invertible or not; where F = G = 0 its roots
                                  are the eigenvalues of A that C does not show, though the transfer function is zero
+    zeros_alone                  the same where nothing else is asked: its degree is found on the way
     zero_dynamics_polynomial     the same from the motion inside V*/R*, where no output sees it: another route
     right_null_polynomial        (x(q), v(q)) with P(q) [x; v] = 0, the proof of not being left-invertible
     PencilParts, pencil_parts    P(q) as constant + q slope
@@ -75,6 +76,13 @@ def invariant_zero_polynomial(kernel: KernelRepresentation, degree: int) -> Poly
     if isinstance(kernel.system.field, Rationals):
         return _gcd_of_minors(kernel, degree)
     return zero_dynamics_polynomial(kernel.system)
+
+
+def zeros_alone(kernel: KernelRepresentation) -> Poly:
+    """The result is the invariant zero polynomial, where nothing else is asked of the system: the degree is what the indices leave of n."""
+    system, infinite = kernel.system, infinite_zero_orders(kernel)
+    finite = system.n - sum(kernel.left_minimal_indices) - sum(right_minimal_indices(system)) - sum(infinite)
+    return invariant_zero_polynomial(kernel, finite)
 
 
 def zero_dynamics_polynomial(system: ResidualSystem) -> Poly:

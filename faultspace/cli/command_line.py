@@ -114,6 +114,7 @@ def verify(
     jobs: Annotated[
         int | None, typer.Option(metavar="K", parser=jobs_number, help="Processes at a time.", show_default="all cores")
     ] = None,
+    scheduler: Annotated[str | None, typer.Option(metavar="ADDRESS", help="Work on the Dask cluster with this scheduler instead.")] = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the headline certificates and verdicts.json there.")] = None,
     recheck: Annotated[
         bool, typer.Option("--recheck", help="First compile the Rocq theory anew, whatever is cached, and let coqchk read it.")
@@ -127,8 +128,10 @@ def verify(
     """
     from . import verifying
 
-    workers = jobs or os.cpu_count() or 1
-    return verifying.run(claim or [], effort=effort.value, jobs=workers, out=out, recheck=recheck, verbose=verbose, as_json=json)
+    workers = jobs or (os.cpu_count() or 1 if scheduler is None else -1)
+    return verifying.run(
+        claim or [], effort=effort.value, jobs=workers, scheduler=scheduler, out=out, recheck=recheck, verbose=verbose, as_json=json
+    )
 
 
 @_command()

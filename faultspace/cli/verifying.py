@@ -30,10 +30,21 @@ from .verdict_tables import SHORT, hypotheses_table, verdict_table
 WIDE = 100  # below it the columns of the long tables hold a word a line
 
 
-def run(claims: Sequence[str], *, effort: str, jobs: int, out: Path | None, recheck: bool, as_json: bool, verbose: bool = False) -> int:
-    """Decide the claims (all when none is named), with `recheck` by theorems that are compiled anew.
+def run(
+    claims: Sequence[str],
+    *,
+    effort: str,
+    jobs: int,
+    scheduler: str | None = None,
+    out: Path | None,
+    recheck: bool,
+    as_json: bool,
+    verbose: bool = False,
+) -> int:
+    """Decide the claims (all when none is named), with `recheck` by theorems that are compiled anew, on a cluster where there is one.
 
-    Raises InvalidInput for an unknown claim or a folder that cannot be written into, and to recheck without Rocq.
+    Raises InvalidInput for an unknown claim or a folder that cannot be written into, and to recheck without Rocq; InvalidData for a cluster
+    that cannot be used.
     """
     known = [claim.id for claim in load()]
     for name in claims:
@@ -44,7 +55,7 @@ def run(claims: Sequence[str], *, effort: str, jobs: int, out: Path | None, rech
     if recheck and not _rechecked():
         return NOT_AS_EXPECTED
     with working("deciding the claims") as tell:
-        report = verify(claims or None, effort=effort, jobs=jobs, on_progress=tell)
+        report = verify(claims or None, effort=effort, jobs=jobs, scheduler=scheduler, on_progress=tell)
     if out is not None:
         count = write_out(report, out, () if claims else specimens())
         say(f"{counted(count, 'certificate')} and verdicts.json are in {quote_path(str(out))}")

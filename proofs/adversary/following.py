@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.optimize import brentq, least_squares, minimize
 
 from ..evidence.attacks import Floats
 
@@ -77,6 +76,8 @@ def draw_starts(box: Sequence[tuple[float, float]], count: int, rng: np.random.G
 
 def descend(trace: Trace, start: Floats, box: Sequence[tuple[float, float]], *, steps: int, signed: bool) -> Floats:
     """Goes downhill from the start: signed, past zero to the other side, where it stops; else to a common zero by least squares."""
+    from scipy.optimize import least_squares, minimize  # here and below: a run of `verify` follows nothing
+
     if not signed:
         low, high = np.array(box, dtype=np.float64).T
         inside = np.clip(start, low + 1e-9 * (high - low), high - 1e-9 * (high - low))
@@ -103,6 +104,8 @@ def descend(trace: Trace, start: Floats, box: Sequence[tuple[float, float]], *, 
 
 def crossings(trace: Trace) -> Iterator[Floats]:
     """Yields zeros on the segments between points of different sign, the closest to zero first."""
+    from scipy.optimize import brentq
+
     positive, negative = (sorted(trace.signs[side], key=lambda item: item[0])[:KEPT] for side in (True, False))
     pairs = sorted(((a[0] + b[0], i, j) for i, a in enumerate(positive) for j, b in enumerate(negative)))
     for _, i, j in pairs[:KEPT]:
@@ -117,4 +120,6 @@ def crossings(trace: Trace) -> Iterator[Floats]:
 
 def outward(trace: Trace, start: Floats, box: Sequence[tuple[float, float]], *, steps: int) -> None:
     """Goes uphill in absolute value."""
+    from scipy.optimize import minimize
+
     minimize(lambda point: -abs(trace.number(point)), start, method="Nelder-Mead", bounds=list(box), options={"maxfev": steps})

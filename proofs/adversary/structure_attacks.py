@@ -14,7 +14,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from random import Random
 
-import sympy
 from flint import fmpq, fmpq_poly
 
 from ...exact.algebra.matrices import Matrix, beside, column_basis, left_null_space, rank, solve_left, stacked
@@ -403,6 +402,8 @@ def _thick(system: ResidualSystem) -> Found | None:
     P, Q = (Matrix.of([[random.randint(-999, 999) for _ in range(cols)] for _ in range(rows)], shape=(rows, cols)) for _ in range(2))
     if _common(pencil_, P, Q).degree() < 1:
         return None
+    import sympy  # here, where it is needed
+
     shared = sympy.gcd_list(list(bad_equations(pencil_).equations))
     if not shared.free_symbols:
         return None

@@ -8,7 +8,7 @@ from ...exact.algebra import polynomials
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.pairs.no_feedthrough import zero_feedthrough
 from ...exact.structure.kernel_rows import kernel_representation
-from ...exact.structure.record import analyze
+from ...exact.structure.pencil import zeros_alone
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import observability_matrix
 from ..evidence.corpus import Evidence
@@ -68,7 +68,7 @@ def zeros_are_hidden_modes(system: ResidualSystem) -> bool:
     """Whether every finite zero is one of the system without faults: those are the unobservable modes."""
     field = system.field
     faultless = system.with_faults(Matrix.zero(field, system.n, 0), Matrix.zero(field, system.p, 0))
-    hidden, rest = analyze(faultless).invariant_zero_polynomial, analyze(system).invariant_zero_polynomial
+    hidden, rest = (zeros_alone(kernel_representation(one)) for one in (faultless, system))
     while len(common := polynomials.gcd(rest, hidden)) > 1:
         rest, _ = polynomials.divide(rest, common)
     return len(rest) == 1

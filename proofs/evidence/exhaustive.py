@@ -16,8 +16,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from ...exact.algebra.fields import PrimeField
 from ...exact.system.systems import ResidualSystem
@@ -42,6 +40,9 @@ def all_systems(q: int, n: int, p: int, m: int) -> Iterator[ResidualSystem]:
 
 def orbits(q: int, n: int, p: int, m: int) -> list[Orbit]:
     """One system of every orbit over GF(q), with the number of systems it stands for."""
+    from scipy.sparse import coo_matrix  # here, where it is needed: the processes that check do without scipy
+    from scipy.sparse.csgraph import connected_components
+
     digits = _all_digits(q, (n + p) * (n + m))
     count = len(digits)
     numbers = np.arange(count)

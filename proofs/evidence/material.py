@@ -3,13 +3,17 @@
 Material    a kind: the items that it is made of, what is made of one, and how many of them are a task
 Wanted      raised where material is asked for that is not there yet, and is not to be made here
 made        the material of several kinds
+Folder      where material stands that was made, for the processes of this machine
+Carried     the same for machines that share no files: it goes along with the tasks that asked for it
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
+from uuid import uuid4
 
 from joblib import Parallel, delayed
 
@@ -71,6 +75,53 @@ def made(kinds: Sequence[Material], bench: Any, jobs: int, progress: Progress) -
         done += len(batch)
         progress(some[0].stage, done, total)
     return {name: tuple(parts[name]) if before == () else before for name, before in found.items()}
+
+
+class Folder:
+    """This is a shelf: bytes by name, in the files of a folder. `run` names the run that it belongs to."""
+
+    def __init__(self, path: Path) -> None:
+        self.path, self.run = path, str(path)
+
+    def __contains__(self, name: str) -> bool:
+        return (self.path / name).exists()
+
+    def __getitem__(self, name: str) -> bytes:
+        return (self.path / name).read_bytes()
+
+    def __setitem__(self, name: str, data: bytes) -> None:
+        (self.path / name).write_bytes(data)
+
+    def part(self, names: Iterable[str]) -> Folder:
+        """Return what a task takes along that needs these: the place alone, where it finds them."""
+        return self
+
+
+class Carried:
+    """This is a shelf that holds the bytes themselves."""
+
+    def __init__(self, run: str | None = None, held: dict[str, bytes] | None = None) -> None:
+        self.run, self.held = run or uuid4().hex, {} if held is None else held
+        self._parts: dict[frozenset[str], Carried] = {}
+
+    def __contains__(self, name: str) -> bool:
+        return name in self.held
+
+    def __getitem__(self, name: str) -> bytes:
+        return self.held[name]
+
+    def __setitem__(self, name: str, data: bytes) -> None:
+        self.held[name] = data
+
+    def part(self, names: Iterable[str]) -> Carried:
+        """Return a shelf with these alone; tasks that need the same take the same one, so that it is sent once."""
+        chosen = frozenset(names)
+        if chosen not in self._parts:
+            self._parts[chosen] = Carried(self.run, {name: self.held[name] for name in sorted(chosen)})
+        return self._parts[chosen]
+
+
+Shelf = Folder | Carried
 
 
 def _made_of(makes: Sequence[Callable[[Any], list[Any]]], batch: Sequence[Any]) -> list[list[Any] | Exception]:

@@ -57,6 +57,7 @@ def facets(system: ResidualSystem) -> Facets:
     )
 
 
+@lru_cache(maxsize=1 << 18)
 def degenerate(system: ResidualSystem) -> str:
     """Why a counterexample made of this system says little: it fails for want of a state, an output or a fault that does something."""
     reasons = {

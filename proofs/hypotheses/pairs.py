@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 from itertools import chain
 
 from ...exact.algebra.matrices import Matrix, column_basis, rank, stacked
@@ -202,6 +202,12 @@ def _groups(
             yield system, groups[name]
 
 
+@lru_cache(maxsize=1 << 14)  # the same small systems are gone through for each hypothesis that is dropped
+def _outputs(system: ResidualSystem, s: int) -> Matrix:
+    """Return the column space of [O_s T_s]."""
+    return column_basis(window_matrix(system, s))
+
+
 def _words(box: Box) -> str:
     return f"{box}, both of the same dimensions"
 
@@ -213,15 +219,15 @@ def _smallest_agreeing(bench: Workbench, dropped: Sequence[str]) -> Found[Compar
 
     def key(system: ResidualSystem) -> object:
         shared = None if "same (A, C)" in dropped else (system.A, system.C)
-        return shared, column_basis(window_matrix(system, system.n + extra))
+        return shared, _outputs(system, system.n + extra)
 
     def counterexamples(poor: bool) -> Iterator[Compared]:
         for first, group in _groups(box, dropped, key):
             if len(group) > 1 and (poor or not degenerate(first)):
-                longer = column_basis(window_matrix(first, 2 * first.n + 1))
+                longer = _outputs(first, 2 * first.n + 1)
                 for second in group:
                     pair = Compared(first, second, first.n + extra, False, 1, 0)
-                    if bool(pair.degenerate) == poor and column_basis(window_matrix(second, 2 * first.n + 1)) != longer:
+                    if bool(pair.degenerate) == poor and _outputs(second, 2 * first.n + 1) != longer:
                         yield pair
 
     return first_found(counterexamples, _words(box))
@@ -231,7 +237,7 @@ def _smallest_outside(holds: Callable[[Compared], bool], bench: Workbench, dropp
     """Return the first system with an equivalent one for which the conclusion fails."""
 
     def counterexamples(poor: bool) -> Iterator[Compared]:
-        for first, group in _groups(SMALLER, dropped, lambda s: column_basis(window_matrix(s, 2 * s.n + 1))):
+        for first, group in _groups(SMALLER, dropped, lambda s: _outputs(s, 2 * s.n + 1)):
             for second in group:
                 pair = Compared(first, second, None, True, 1, 0)
                 kept = SIMILAR in dropped or pair.similarity is not None

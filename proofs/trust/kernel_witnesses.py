@@ -160,8 +160,14 @@ def _common_images(kernel: KernelRepresentation, other: ResidualSystem) -> Any:
 
 def _have_gaps(systems: Sequence[ResidualSystem], kernel: KernelRepresentation, window: int | None = None) -> bool:
     samples = max(system.n for system in systems) + 1 if window is None else window
-    chains = [zero_output_chain(system) for system in systems]
-    return all(chain.gap(k) == kernel.gap(k) for chain in chains for k in range(samples))
+    gaps = [kernel.gap(k) for k in range(samples)]
+    return all([found[min(k, len(found) - 1)] for k in range(samples)] == gaps for found in map(_gaps, systems))
+
+
+@lru_cache(maxsize=256)  # a system stands in many pairs
+def _gaps(system: ResidualSystem) -> tuple[int, ...]:
+    """Return the gaps of a system over a prime field for k = 0, 1, ...; the last of them repeats for ever."""
+    return tuple(map(len, zero_output_chain(system).profiles))
 
 
 def _plain(matrix: Matrix) -> list[list[object]]:

@@ -14,7 +14,6 @@ import pickle
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from pathlib import Path
 from typing import Any, TypeVar
 
 from ...base.progress import Progress
@@ -23,7 +22,7 @@ from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import ALTERNATIVES, PAIRS, AlternativeEvidence, PairEvidence
 from ..evidence.corpus import CORPUS, ByQuestion, Evidence, Questions, describe, examine, together
 from ..evidence.experiments import LIMITS, LimitEvidence, examine_experiment, first_look
-from ..evidence.material import Made, Material, Wanted, made
+from ..evidence.material import Made, Material, Shelf, Wanted, made
 from ..evidence.pairs_by_polynomial import PAIRS_BY_POLYNOMIAL, PairByPolynomial
 from ..evidence.search import Box, Facts, Flags, Known, first_of_orbits, smallest
 from ..trust.structure_certificates import Certificate, accept
@@ -38,13 +37,13 @@ Item = TypeVar("Item", PairEvidence, AlternativeEvidence, PairByPolynomial, Limi
 class Workbench:
     """The effort ("quick" or "full"), the number of processes, where progress goes, and the certified material of a run.
 
-    Where there is a `shelf`, material is read from that folder, and `Wanted` is raised for what is not there; else it is made here.
+    Where there is a `shelf`, material is read from there, and `Wanted` is raised for what is not there; else it is made here.
     """
 
     effort: str
     jobs: int
     progress: Progress
-    shelf: Path | None = None
+    shelf: Shelf | None = None
 
     def corpus(self, questions: Questions) -> tuple[Evidence, ...]:
         """Return single systems with what accepted certificates answer to these questions."""
@@ -75,8 +74,8 @@ class Workbench:
         if kind.name not in self._made:
             if self.shelf is None:
                 self.make([kind])
-            elif (file := self.shelf / kind.name).exists():
-                self._made[kind.name] = pickle.loads(file.read_bytes())
+            elif kind.name in self.shelf:
+                self._made[kind.name] = pickle.loads(self.shelf[kind.name])
             else:
                 raise Wanted(kind)
         found = self._made[kind.name]
@@ -105,16 +104,16 @@ class Workbench:
     def need(self, *kinds: Material) -> None:
         """Raise `Wanted` for those of the kinds that are not on the shelf, so that they are made together and not one after the other."""
         if self.shelf is not None:
-            missing = [kind for kind in kinds if kind.name not in self._made and not (self.shelf / kind.name).exists()]
+            missing = [kind for kind in kinds if kind.name not in self._made and kind.name not in self.shelf]
             if missing:
                 raise Wanted(*missing)
 
-    def make(self, kinds: Sequence[Material], shelf: Path | None = None) -> None:
+    def make(self, kinds: Sequence[Material], shelf: Shelf | None = None) -> None:
         """Make material of these kinds, all of it at once, and put it on a shelf for other processes too where one is given."""
         for name, found in made(kinds, self, self.jobs, self.progress).items():
             self._made[name] = found
             if shelf is not None:
-                (shelf / name).write_bytes(pickle.dumps(found, pickle.HIGHEST_PROTOCOL))
+                shelf[name] = pickle.dumps(found, pickle.HIGHEST_PROTOCOL)
 
     @property
     def corpus_in_words(self) -> str:

@@ -42,6 +42,7 @@ from faultspace.exact.structure.pencil import (
     right_minimal_indices,
     right_null_polynomial,
     zero_dynamics_polynomial,
+    zeros_alone,
 )
 from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.relations import coefficients_of, integer_relations, relations_over_prime_field
@@ -162,6 +163,7 @@ def check_finite_zeros(system: Json) -> None:
     slow = parse_system(system)
     wanted = tuple(field.element(slow.field.write(c)) for c in slow_zero_polynomial(slow))
     assert invariant_zero_polynomial(kernel_representation(exact), len(wanted) - 1) == wanted
+    assert zeros_alone(kernel_representation(exact)) == wanted
     assert zero_dynamics_polynomial(exact) == wanted
     product: Poly = (field.element(1),)
     for entry in finite_diagonal(exact).diagonal:

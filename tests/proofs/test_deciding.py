@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import pickle
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from faultspace.base.errors import InvalidInput
 from faultspace.proofs import deciding
 from faultspace.proofs.deciding import Check, decided
-from faultspace.proofs.evidence.material import Material, Wanted
+from faultspace.proofs.evidence.material import Carried, Folder, Material, Shelf, Wanted
 from faultspace.proofs.trust.checker import Rejected
+from faultspace.proofs.verdict.verdicts import ClaimResult, Report
 from faultspace.proofs.verdict.workbench import Workbench
+from faultspace.proofs.verification import verify
 
 
 def quiet(stage: str, done: int, total: int) -> None:
@@ -47,8 +51,8 @@ NOTHING = Material("nothing", "counting", without_items, twice, 1)
 @pytest.mark.parametrize("jobs", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_material_is_in_order_and_an_error_is_kept_for_who_asks(jobs: int, tmp_path: Path) -> None:
     bench = Workbench("quick", jobs, quiet)
-    bench.make([TWICE, REFUSED, NOTHING], tmp_path)
-    for reader in (bench, Workbench("quick", 1, quiet, tmp_path)):
+    bench.make([TWICE, REFUSED, NOTHING], Folder(tmp_path))
+    for reader in (bench, Workbench("quick", 1, quiet, Folder(tmp_path))):
         assert reader.material(TWICE) == (0, 0, 1, 10, 2, 20)
         with pytest.raises(Rejected, match="two is not accepted"):
             reader.material(REFUSED)
@@ -57,8 +61,9 @@ def test_material_is_in_order_and_an_error_is_kept_for_who_asks(jobs: int, tmp_p
 
 
 def test_what_is_not_on_the_shelf_is_wanted_all_at_once(tmp_path: Path) -> None:
-    reader = Workbench("quick", 1, quiet, tmp_path)
-    (tmp_path / TWICE.name).write_bytes(pickle.dumps((1, 2)))
+    shelf = Folder(tmp_path)
+    reader = Workbench("quick", 1, quiet, shelf)
+    shelf[TWICE.name] = pickle.dumps((1, 2))
     with pytest.raises(Wanted) as raised:
         reader.need(REFUSED, TWICE, NOTHING)
     assert raised.value.kinds == (REFUSED, NOTHING)
@@ -76,8 +81,10 @@ def test_processes_decide_as_one_does() -> None:
     assert "No module named" in together[tasks[2]].found.evidence
 
 
-def test_a_task_that_asks_is_tried_again_when_that_is_there(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+@pytest.mark.parametrize("carried", [False, True])
+def test_a_task_that_asks_is_tried_again_when_that_is_there(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, carried: bool) -> None:
     """Each round makes what the one before asked for; a task that asks for nothing is done once."""
+    shelf: Shelf = Carried() if carried else Folder(tmp_path)
     monkeypatch.setattr(deciding, "Parallel", lambda **options: lambda calls: (call(*args, **names) for call, args, names in calls))
     tried: list[str] = []
 
@@ -92,6 +99,43 @@ def test_a_task_that_asks_is_tried_again_when_that_is_there(monkeypatch: pytest.
             return "done"
 
     tasks: Any = [Asking(), Free()]
-    answers = deciding._in_rounds(Workbench("quick", 1, quiet), tasks, tmp_path)
+    answers = deciding._in_rounds(Workbench("quick", 1, quiet), tasks, shelf)
     assert tried == ["asking", "free", "asking", "asking"]
     assert [answers[task].found for task in tasks] == [(0, 0, 1, 10, 2, 20) * 2, "done"]
+
+
+def test_what_is_carried_is_what_was_asked_for_and_is_sent_once() -> None:
+    shelf = Carried()
+    shelf["one"], shelf["two"] = b"1", b"2"
+    part = shelf.part(["two"])
+    assert part.run == shelf.run and "one" not in part and part["two"] == b"2"
+    assert shelf.part({"two"}) is part and shelf.part([]) is not part
+    sent = pickle.loads(pickle.dumps(part))
+    assert sent.run == shelf.run and sent["two"] == b"2"
+
+
+def test_another_run_in_the_same_process_finds_nothing_of_the_one_before() -> None:
+    """A Dask worker outlives a run."""
+    runs = [Carried(), Carried()]
+    benches = [deciding._bench("quick", shelf) for shelf in (runs[0], runs[0], runs[1])]
+    assert benches[0] is benches[1] is not benches[2] and benches[2].shelf is runs[1]
+
+
+@pytest.mark.slow  # a cluster takes seconds to start
+def test_a_cluster_decides_as_one_process_does() -> None:
+    """Material goes along with the tasks, to workers with two threads each."""
+    distributed = pytest.importorskip("distributed")
+    alone = verify(["settle-1", "bad-set"], jobs=1)
+    with distributed.LocalCluster(n_workers=1, threads_per_worker=2, processes=True, dashboard_address=None) as cluster:
+        spread = verify(["settle-1", "bad-set"], scheduler=cluster.scheduler_address)
+    assert [claim.readings for claim in without_seconds(spread)] == [claim.readings for claim in without_seconds(alone)]
+    assert spread.hypotheses == alone.hypotheses
+
+
+def without_seconds(report: Report) -> list[ClaimResult]:
+    return [replace(claim, readings=tuple(replace(one, seconds=0.0) for one in claim.readings)) for claim in report.claims]
+
+
+def test_a_scheduler_excludes_a_number_of_processes() -> None:
+    with pytest.raises(InvalidInput, match="the cluster decides how many work"):
+        verify(["example-v"], jobs=2, scheduler="tcp://127.0.0.1:9")

@@ -14,7 +14,7 @@ from faultspace.proofs import deciding
 from faultspace.proofs.deciding import Check, Task, Without, decided
 from faultspace.proofs.evidence import corpus, questions
 from faultspace.proofs.evidence.corpus import CORPUS, Evidence, Questions, Source, Unasked, by_question, examine
-from faultspace.proofs.evidence.material import Material, made
+from faultspace.proofs.evidence.material import Carried, Folder, Material, Shelf, made
 from faultspace.proofs.evidence.questions import FINITE_ZEROS, INFINITE_ZEROS, OBSERVABILITY, QUESTIONS, RANKS, SPACE, Question, answered
 from faultspace.proofs.hypotheses import ablations, trajectories, windowed
 from faultspace.proofs.hypotheses.aimed import AIMED
@@ -137,7 +137,7 @@ TASKS: list[Task] = [
 ]
 
 
-def said(tasks: list[Task], shelf: Path | None = None) -> dict[Task, Any]:
+def said(tasks: list[Task], shelf: Shelf | None = None) -> dict[Task, Any]:
     """Return what each task comes to on a workbench of its own, in one process or as if in several."""
     bench = Workbench("quick", 1, silent)
     answers = decided(bench, tasks) if shelf is None else deciding._in_rounds(bench, tasks, shelf)
@@ -153,9 +153,9 @@ def test_alone_with_others_and_in_another_order_the_same_is_said(small: None, mo
         assert said([task]) == {task: whole[task]}
     assert said([TASKS[8], TASKS[1]]) == {task: whole[task] for task in (TASKS[8], TASKS[1])}
     monkeypatch.setattr(deciding, "Parallel", lambda **options: lambda calls: (call(*args, **names) for call, args, names in calls))
-    assert said(TASKS, tmp_path) == whole
+    assert said(TASKS, Folder(tmp_path)) == said(TASKS, Carried()) == whole
     (tmp_path / "again").mkdir()
-    assert said(TASKS[3:5], tmp_path / "again") == {task: whole[task] for task in TASKS[3:5]}
+    assert said(TASKS[3:5], Folder(tmp_path / "again")) == {task: whole[task] for task in TASKS[3:5]}
 
 
 @pytest.mark.slow  # every claim of the ledger, by itself and in a run of all

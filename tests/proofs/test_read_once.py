@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.trust import structure_certificates as make
@@ -13,6 +14,8 @@ from faultspace.proofs.trust.structure_certificates import accept
 from .examples import LEADING, NORMAL, OUTPUTS, PROJECTED, SEVEN_B, SEVEN_D, Certificate, spoiled, written
 
 SEVEN = written(make.left_invertible(kernel_representation(ResidualSystem.of([], [], [[]], [["7/3"]], n=0, m=1, p=1))))
+SUMS = ResidualSystem.of([[1]], [[1]], [[1]], [[0]])
+WALK = written(make.data_rank("residual-hankel", SUMS, Matrix.of([[1]]), Matrix.of([[0], [0], [0], [0]]), 2))
 NINTH = ("witness.covariance.0.0", "1/9")
 
 
@@ -45,3 +48,15 @@ def test_what_is_equal_in_python_and_not_in_json_is_read_again() -> None:
     accept(one)
     with pytest.raises(Malformed):
         accept(spoiled(SEVEN, ("statement.system.G", [[True]])))
+
+
+def test_a_word_is_walked_again_where_another_is_stated() -> None:
+    """The last word of a system is kept: it is not taken for another one, nor for one that is no word at all."""
+    accept(WALK)
+    with pytest.raises(Rejected, match="does not vanish"):
+        accept(spoiled(WALK, ("statement.v.1", ["1"])))
+    with pytest.raises(Rejected, match="does not vanish"):
+        accept(spoiled(WALK, ("statement.x0.0", "5"), ("statement.v.0", ["1"])))
+    accept(spoiled(WALK, ("statement.v.3", [1])))
+    with pytest.raises(Malformed):
+        accept(spoiled(WALK, ("statement.v.3", [True])))
