@@ -12,13 +12,14 @@ A test compares what these functions give with what is in the folder.
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from faultspace.proofs.adversary.results import SWEPT, AttackRecord, stored
 from faultspace.proofs.evidence.attacks import Aim
 from faultspace.proofs.hypotheses import ablations
-from faultspace.proofs.quantities.registry import Kind, quantities
+from faultspace.proofs.quantities.pairs import OF_ONE_A_AND_C
+from faultspace.proofs.quantities.registry import Kind, Quantity, quantities
 from faultspace.proofs.verdict.ledger import Claim, expected_without, load
 from faultspace.proofs.verdict.picture import Line, draw
 from faultspace.proofs.verdict.verdicts import Verdict, of_readings
@@ -105,9 +106,19 @@ def nearest(record: AttackRecord) -> str:
 
 
 def quantities_table() -> list[str]:
-    """Return the table of your-claims.md, a row a quantity."""
+    """Return the tables of your-claims.md, a row a quantity: of a system, then of a pair."""
+    return [
+        *_quantities_table(quantities()),
+        "",
+        "Of a pair, beside those of `first` and `second`:",
+        "",
+        *_quantities_table(OF_ONE_A_AND_C),
+    ]
+
+
+def _quantities_table(listed: Mapping[str, Quantity]) -> list[str]:
     rows = ["| name | what it is | meaning | borne by certificates |", "|---|---|---|---|"]
-    for name, one in sorted(quantities().items(), key=lambda item: (item[1].windowed, list(Kind).index(item[1].kind), item[0])):
+    for name, one in sorted(listed.items(), key=lambda item: (item[1].windowed, list(Kind).index(item[1].kind), item[0])):
         borne = "no: computed" if one.certificates is None else "where true" if name == "stable" else "read off" if name in "nmp" else "yes"
         meaning = one.meaning.replace("|", r"\|")
         kind = "a function of s" if one.windowed else str(one.kind)

@@ -1,0 +1,109 @@
+"""The cases outside the box that every claim is tried on, and how one of them that fails is made smaller.
+
+    known_cases     those of the corpus, and of the families that the adversary attacks with, of what the claims of a box are about
+    smaller         a case that still fails, with fewer states, faults, outputs and simpler entries, as far as single steps lead
+
+A known system is one for every claim about systems. Pairs of the corpus are shift registers, which differ late, and small known systems and
+their relatives: the same by feedback and another basis, changed in an entry, with a state more. Those of the adversary are its systems with
+other faults (Fhat P, Ghat P) that explain n samples, and P small integers from a seed.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+
+from ...exact.algebra.fields import QQ, Field, PrimeField
+from ...exact.algebra.matrices import Matrix
+from ...exact.structure.fault_columns import fault_space, with_pair
+from ...exact.system.systems import ResidualSystem
+from ..evidence.alternatives import relatives
+from ..evidence.families import shift_registers
+from ..language.vocabularies import ONE_A_AND_C, SYSTEM
+from ..quantities.cases import Case, Pair, PairSubject
+from ..quantities.subjects import Subject
+from .boxes import Box
+from .known_systems import CORPUS, known_systems, over, simpler_matrices, steps, with_matrix, without_output, without_state
+
+LARGEST_STATES, REGISTERS, CHOICES, SEED = 3, 6, 2, 1
+
+
+@dataclass(frozen=True)
+class KnownCase:
+    """`origin` is the corpus or the adversary; `subject` keeps what is found out about the case."""
+
+    origin: str
+    case: Case
+    subject: Subject | PairSubject
+
+
+def known_cases(box: Box) -> tuple[KnownCase, ...]:
+    """Return them over the field of the box."""
+    if box.about == SYSTEM:
+        return tuple(KnownCase(one.origin, one.subject.system, one.subject) for one in known_systems(box.prime))
+    return _pairs(box.prime, box.about == ONE_A_AND_C)
+
+
+def smaller(case: Case, fails: Callable[[Case], bool]) -> Case:
+    """Return a case that fails and that no single step makes smaller: one row and column less, or one entry 0, 1, -1 or nearer to 0."""
+    while True:
+        found = next((one for one in (steps(case) if isinstance(case, ResidualSystem) else _steps(case)) if fails(one)), None)
+        if found is None:
+            return case
+        case = found
+
+
+@lru_cache(maxsize=8)
+def _pairs(prime: int | None, one_A_and_C: bool) -> tuple[KnownCase, ...]:
+    found = []
+    for origin, first, second in _listed(QQ if prime is None else PrimeField(prime)):
+        if not one_A_and_C or (first.system.A, first.system.C) == (second.system.A, second.system.C):
+            case = Pair(first.system, second.system, one_A_and_C)
+            found.append(KnownCase(origin, case, PairSubject(first, second)))
+    return tuple(found)
+
+
+def _listed(field: Field) -> Iterator[tuple[str, Subject, Subject]]:
+    for n in range(1, REGISTERS + 1):
+        idle, driven = (Subject(over(field, one)) for one in shift_registers(n))
+        yield CORPUS, idle, driven
+        yield CORPUS, driven, idle
+    for known in known_systems(None if field == QQ else field.characteristic):
+        system = known.subject.system
+        if system.n > LARGEST_STATES:
+            continue
+        rng = random.Random(str(system))
+        others = relatives(system, rng) if known.origin == CORPUS else _others(known.subject, rng)
+        for other in others:
+            yield known.origin, known.subject, Subject(other)
+
+
+def _others(subject: Subject, rng: random.Random) -> Iterator[ResidualSystem]:
+    """Yield the system with faults that explain n samples as its own do, a fault more or less among them."""
+    system = subject.system
+    space = fault_space(subject.kernel, system.n)
+    for _ in range(CHOICES):
+        columns = max(system.m + rng.choice((-1, 0, 0, 1)), 0)
+        entries = [[rng.randint(-1, 1) for _ in range(columns)] for _ in range(space.dimension)]
+        yield with_pair(space, Matrix.of(entries, system.field, shape=(space.dimension, columns)))
+
+
+def _steps(pair: Pair) -> Iterator[Pair]:
+    """Yield the pairs with a state, a fault, an output or an entry less; of a common (A, C) in both systems at once."""
+    one, other, shared = pair.first, pair.second, pair.one_A_and_C
+    if shared:
+        for k in range(one.n):
+            yield Pair(without_state(one, k), without_state(other, k), True)
+        for name in "AC":
+            for matrix in simpler_matrices(getattr(one, name)):
+                yield Pair(with_matrix(one, name, matrix), with_matrix(other, name, matrix), True)
+    for k in range(one.p):
+        yield Pair(without_output(one, k), without_output(other, k), shared)
+    for first in steps(one):
+        if first.p == one.p and (not shared or (first.A, first.C) == (one.A, one.C)):
+            yield Pair(first, other, shared)
+    for second in steps(other):
+        if second.p == other.p and (not shared or (second.A, second.C) == (other.A, other.C)):
+            yield Pair(one, second, shared)

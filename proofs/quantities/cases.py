@@ -1,0 +1,76 @@
+"""What a claim can be about, besides one system: the cases, each exact, with everything that quantities ask of them.
+
+Case        a system, or one of the following
+Pair        two systems over one field with as many outputs each
+PairSubject what is known of a pair, found when it is first asked for
+case_json   what a program is told of a case
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from ...exact.structure.behavior import Comparison, compare
+from ...exact.system.systems import ResidualSystem
+from .subjects import Subject
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two systems over the same field with p outputs each; their numbers of states and faults may differ.
+
+    `one_A_and_C` where the claim is about pairs with the same (A, C), as these are then.
+    """
+
+    first: ResidualSystem
+    second: ResidualSystem
+    one_A_and_C: bool = False
+
+    def __str__(self) -> str:
+        return f"first: {self.first}; second: {self.second}"
+
+    @property
+    def size(self) -> tuple[int, ...]:
+        """The number of all states, faults and outputs, then those of the first, and of the second."""
+        sizes = [(one.n, one.m, one.p) for one in (self.first, self.second)]
+        return (sum(map(sum, sizes)), *sizes[0], *sizes[1])
+
+    def to_json(self) -> dict[str, Any]:
+        """Both systems, as exact files hold them."""
+        return {"first": self.first.to_json(), "second": self.second.to_json()}
+
+
+class PairSubject:
+    """A pair and what is known of it; the same Subject may be part of many pairs."""
+
+    def __init__(self, first: Subject, second: Subject) -> None:
+        self.first, self.second = first, second
+
+    @property
+    def subjects(self) -> dict[str, Subject]:
+        """The two systems by their names."""
+        return {"first": self.first, "second": self.second}
+
+    @cached_property
+    def comparison(self) -> Comparison:
+        """This has the shortest word of each system that the other cannot make, where there is one."""
+        return compare(self.first.kernel, self.second.kernel)
+
+
+Case = ResidualSystem | Pair
+
+
+def size_of(case: Case) -> tuple[int, ...]:
+    """Return by what cases are ordered first: n + m + p, n, m, p of a system."""
+    if isinstance(case, ResidualSystem):
+        return (case.n + case.m + case.p, case.n, case.m, case.p)
+    return case.size
+
+
+def case_json(case: Case) -> dict[str, Any]:
+    """Return the system with its sizes, or what else the case is made of."""
+    if isinstance(case, ResidualSystem):
+        return {"system": case.to_json(), "n": case.n, "m": case.m, "p": case.p}
+    return case.to_json()
