@@ -18,6 +18,7 @@ from pathlib import Path
 from faultspace.proofs.adversary.results import SWEPT, AttackRecord, stored
 from faultspace.proofs.evidence.attacks import Aim
 from faultspace.proofs.hypotheses import ablations
+from faultspace.proofs.quantities.choices import OF_A_CHOICE
 from faultspace.proofs.quantities.pairs import OF_ONE_A_AND_C
 from faultspace.proofs.quantities.registry import Kind, Quantity, quantities
 from faultspace.proofs.verdict.ledger import Claim, expected_without, load
@@ -106,20 +107,22 @@ def nearest(record: AttackRecord) -> str:
 
 
 def quantities_table() -> list[str]:
-    """Return the tables of your-claims.md, a row a quantity: of a system, then of a pair."""
+    """Return the tables of your-claims.md, a row a quantity: of a system, then of a pair and of a choice."""
     return [
         *_quantities_table(quantities()),
-        "",
-        "Of a pair, beside those of `first` and `second`:",
-        "",
+        *("", "Of a pair, beside those of `first` and `second` (`n` where both have the same A and C):", ""),
         *_quantities_table(OF_ONE_A_AND_C),
+        *("", "Of a choice, beside those of the system and of `chosen`, and the matrix `P`:", ""),
+        *_quantities_table(OF_A_CHOICE),
     ]
 
 
 def _quantities_table(listed: Mapping[str, Quantity]) -> list[str]:
     rows = ["| name | what it is | meaning | borne by certificates |", "|---|---|---|---|"]
     for name, one in sorted(listed.items(), key=lambda item: (item[1].windowed, list(Kind).index(item[1].kind), item[0])):
-        borne = "no: computed" if one.certificates is None else "where true" if name == "stable" else "read off" if name in "nmp" else "yes"
+        borne = (
+            "no: computed" if one.certificates is None else "where true" if name == "stable" else "read off" if name in "nmpk" else "yes"
+        )
         meaning = one.meaning.replace("|", r"\|")
         kind = "a function of s" if one.windowed else str(one.kind)
         rows.append(f"| `{name}{'(s)' if one.windowed else ''}` | {kind}{', over Q' if one.only_over_Q else ''} | {meaning} | {borne} |")

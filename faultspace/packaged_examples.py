@@ -36,6 +36,7 @@ CLAIMS = {
     "literature": "statements of the field with their sources, right ones and wrong or loose ones, with their verdicts",
     "papers": "three papers as a new user reads them: seven readings of their abstracts, with their verdicts",
     "pairs": "claims about two systems, with the same A and C or not: how many samples tell them apart",
+    "choices": "claims about other fault columns for the same system: which of them make the same outputs",
     "ledger": "the paper's claims about single systems, in the language of claims, with the verdicts of `faultspace verify`",
 }
 

@@ -1,6 +1,6 @@
 """What a claim is about, read from the document of a file.
 
-read_case     a system as exact files hold it, or {"first": SYSTEM, "second": SYSTEM}
+read_case     a system as exact files hold it, or what else the FORMS are
 fitting       the case as one of the kind that a claim is about
 """
 
@@ -10,9 +10,15 @@ from collections.abc import Mapping
 from typing import Any
 
 from ...base.errors import InvalidInput, shorten
+from ...exact.algebra.matrices import Matrix
+from ...exact.algebra.validation import natural
+from ...exact.structure.fault_columns import fault_space_dimension
 from ...exact.system.systems import ResidualSystem, read_system
-from ..language.vocabularies import ONE_A_AND_C, PAIR, SYSTEM
-from ..quantities.cases import Case, Pair
+from ..language.vocabularies import CHOICE, ONE_A_AND_C, PAIR, SYSTEM
+from ..quantities.cases import Case, Choice, Pair
+
+_TWO = '{"first": SYSTEM, "second": SYSTEM}'
+FORMS = {SYSTEM: "SYSTEM", PAIR: _TWO, ONE_A_AND_C: _TWO, CHOICE: '{"system": SYSTEM, "P": [[...], ...]}'}
 
 
 def is_pair(document: Any) -> bool:
@@ -20,8 +26,15 @@ def is_pair(document: Any) -> bool:
     return isinstance(document, Mapping) and bool({"first", "second"} & set(document))
 
 
+def is_choice(document: Any) -> bool:
+    """Whether the document is meant as a system and a P."""
+    return isinstance(document, Mapping) and "P" in document
+
+
 def read_case(document: Any) -> Case:
-    """Return the case. Raises InvalidInput that names the place, for systems over two fields, and for unequal numbers of outputs."""
+    """Return the case. Raises InvalidInput that names the place, for systems over two fields, and for shapes that do not fit."""
+    if is_choice(document):
+        return _choice(document)
     if not is_pair(document):
         return read_system(document).residual
     if set(document) != {"first", "second"}:
@@ -34,14 +47,29 @@ def read_case(document: Any) -> Case:
     return Pair(first, second)
 
 
+def _choice(document: Mapping[str, Any]) -> Choice:
+    if not {"system", "P"} <= set(document) <= {"system", "P", "k"}:
+        raise InvalidInput(f"got the keys {shorten(sorted(map(str, document)))}, expected system and P (and k, where P has no rows)")
+    system = read_system(document["system"]).residual
+    rows, n_z = document["P"], fault_space_dimension(system)
+    if not isinstance(rows, list) or not all(isinstance(row, list) for row in rows) or len(rows) != n_z:
+        raise InvalidInput(f"P: got {shorten(rows)}, expected {n_z} rows, as many as the fault space has dimensions")
+    k = document.get("k", len(rows[0]) if rows else 0)
+    return Choice(system, Matrix.of(rows, system.field, shape=(n_z, natural(k, "k")), where="P"))
+
+
 def fitting(case: Case, about: str) -> Case:
     """Return the case for claims about `about`. Raises InvalidInput where it is no such one."""
     if isinstance(case, ResidualSystem):
         if about != SYSTEM:
-            raise InvalidInput(f'got a system, expected a {about}: {{"first": SYSTEM, "second": SYSTEM}}')
+            raise InvalidInput(f"got a system, expected a {about}: {FORMS[about]}")
+        return case
+    if isinstance(case, Choice):
+        if about != CHOICE:
+            raise InvalidInput(f"got a choice, expected a {about}: {FORMS[about]}")
         return case
     if about not in (PAIR, ONE_A_AND_C):
-        raise InvalidInput(f"got a pair of systems, expected a {about}")
+        raise InvalidInput(f"got a pair of systems, expected a {about}: {FORMS[about]}")
     if about == ONE_A_AND_C and (case.first.A, case.first.C) != (case.second.A, case.second.C):
         raise InvalidInput("got a pair of systems with different A or C, expected the same in both")
     return Pair(case.first, case.second, about == ONE_A_AND_C)

@@ -22,16 +22,22 @@ from flint import fmpz
 from ...base.errors import InvalidInput, shorten
 from ..language.grammar import read
 from ..language.nodes import Node, reads, walk
-from ..language.vocabularies import ABOUT_A_SYSTEM, ONE_A_AND_C, PAIR, SYSTEM, VOCABULARIES, Vocabulary
+from ..language.vocabularies import ABOUT_A_SYSTEM, CHOICE, ONE_A_AND_C, PAIR, SYSTEM, VOCABULARIES, Vocabulary
 from ..quantities.registry import Kind, quantities
 from .boxes import Box
+from .choice_boxes import ChoiceBox
 from .pair_boxes import PairBox
 
 KEYS = ("statement", "source", "about", "hypotheses", "conclusion", "fields", "box", "expected")
 BOX_KEYS = ("n", "m", "p", "total", "entries")
 ABOUT = ("system", "pair", "pair with the same (A, C)", "choice", "record")
 _TWO = PairBox(n=(1, 2), m=(1, 2), p=(1, 2), total=4)
-USUAL: dict[str, Box] = {SYSTEM: Box(), PAIR: _TWO, ONE_A_AND_C: replace(_TWO, one_A_and_C=True)}  # the boxes where none is stated
+USUAL: dict[str, Box] = {
+    SYSTEM: Box(),
+    PAIR: _TWO,
+    ONE_A_AND_C: replace(_TWO, one_A_and_C=True),
+    CHOICE: ChoiceBox(n=(1, 2), total=4),
+}  # the boxes where none is stated
 LARGEST_SIZE, LARGEST_TOTAL, LARGEST_PRIME, MOST_ENTRIES = 8, 16, 97, 32
 LONGEST_TEXT, MOST_HYPOTHESES, MOST_FIELDS = 2000, 16, 8
 
@@ -119,18 +125,20 @@ def expression(given: object, where: str, kind: Kind = Kind.WORD, vocabulary: Vo
 
 def make_box(given: Mapping[str, Any], prime: int | None, about: str = SYSTEM) -> Box:
     """Return the box with these bounds over Q or GF(prime). Raises InvalidInput that begins with `box`."""
-    for key in given:
-        if key not in BOX_KEYS:
-            raise InvalidInput(f"box.{key}: got an unknown key; {nearest(str(key), BOX_KEYS)}")
     plain = USUAL[about]
-    ranges = {name: _range(given[name], name) if name in given else getattr(plain, name) for name in ("n", "m", "p")}
+    own = ("k",) if about == CHOICE else ()
+    known = (*BOX_KEYS, *own)
+    for key in given:
+        if key not in known:
+            raise InvalidInput(f"box.{key}: got an unknown key; {nearest(str(key), known)}")
+    ranges = {name: _range(given[name], name) if name in given else getattr(plain, name) for name in ("n", "m", "p", *own)}
     total = given.get("total", plain.total)
     if type(total) is not int or not 0 <= total <= LARGEST_TOTAL:
         raise InvalidInput(f"box.total: got {shorten(total)}, expected an integer from 0 to {LARGEST_TOTAL}")
     entries = _entries(given["entries"], prime) if "entries" in given else _usual(prime)
     box = replace(plain, **ranges, total=total, entries=entries, prime=prime)
     if not box.sizes():
-        least = sum(low for low, _ in ranges.values())
+        least = sum(ranges[name][0] for name in ("n", "m", "p"))
         raise InvalidInput(f"box: got an empty box, n + m + p is at least {least} and at most total = {total}")
     return box
 

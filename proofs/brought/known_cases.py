@@ -5,7 +5,8 @@
 
 A known system is one for every claim about systems. Pairs of the corpus are shift registers, which differ late, and small known systems and
 their relatives: the same by feedback and another basis, changed in an entry, with a state more. Those of the adversary are its systems with
-other faults (Fhat P, Ghat P) that explain n samples, and P small integers from a seed.
+other faults (Fhat P, Ghat P) that explain n samples, and P small integers from a seed. Choices are those of small known systems with P that
+are generic, sparse, of unit columns, rank-deficient, and, where there is one, a P by which the normal rank is lost.
 """
 
 from __future__ import annotations
@@ -14,15 +15,18 @@ import random
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import combinations
 
 from ...exact.algebra.fields import QQ, Field, PrimeField
 from ...exact.algebra.matrices import Matrix
-from ...exact.structure.fault_columns import fault_space, with_pair
+from ...exact.pairs.witnesses import BadPair, bad_pair
+from ...exact.structure.fault_columns import fault_space, fault_space_dimension, with_pair
 from ...exact.system.systems import ResidualSystem
-from ..evidence.alternatives import relatives
+from ..evidence.alternatives import relatives, small_columns
 from ..evidence.families import shift_registers
-from ..language.vocabularies import ONE_A_AND_C, SYSTEM
-from ..quantities.cases import Case, Pair, PairSubject
+from ..evidence.pairs_by_polynomial import pencil_of
+from ..language.vocabularies import CHOICE, ONE_A_AND_C, SYSTEM
+from ..quantities.cases import Case, Choice, ChoiceSubject, Pair, PairSubject
 from ..quantities.subjects import Subject
 from .boxes import Box
 from .known_systems import CORPUS, known_systems, over, simpler_matrices, steps, with_matrix, without_output, without_state
@@ -43,16 +47,57 @@ def known_cases(box: Box) -> tuple[KnownCase, ...]:
     """Return them over the field of the box."""
     if box.about == SYSTEM:
         return tuple(KnownCase(one.origin, one.subject.system, one.subject) for one in known_systems(box.prime))
+    if box.about == CHOICE:
+        return _choices(box.prime)
     return _pairs(box.prime, box.about == ONE_A_AND_C)
 
 
 def smaller(case: Case, fails: Callable[[Case], bool]) -> Case:
     """Return a case that fails and that no single step makes smaller: one row and column less, or one entry 0, 1, -1 or nearer to 0."""
     while True:
-        found = next((one for one in (steps(case) if isinstance(case, ResidualSystem) else _steps(case)) if fails(one)), None)
+        found = next((one for one in _smaller(case) if fails(one)), None)
         if found is None:
             return case
         case = found
+
+
+def _smaller(case: Case) -> Iterator[Case]:
+    if isinstance(case, ResidualSystem):
+        return steps(case)
+    return _pair_steps(case) if isinstance(case, Pair) else _choice_steps(case)
+
+
+@lru_cache(maxsize=4)
+def _choices(prime: int | None) -> tuple[KnownCase, ...]:
+    found = []
+    for known in known_systems(prime):
+        system = known.subject.system
+        if system.n > LARGEST_STATES:
+            continue
+        rng = random.Random(str(system))
+        pencil = pencil_of(system)
+        listed = [*small_columns(pencil.n_z, system.m, rng), *small_columns(pencil.n_z, pencil.columns, rng)]
+        bad = bad_pair(pencil)
+        if isinstance(bad, BadPair):
+            listed.append(bad.verdict.P)
+        for P in dict.fromkeys(listed):
+            P = Matrix.of(P.elements(), system.field, shape=P.shape)
+            found.append(KnownCase(known.origin, Choice(system, P), ChoiceSubject(known.subject, P)))
+    return tuple(found)
+
+
+def _choice_steps(choice: Choice) -> Iterator[Choice]:
+    """Yield the choices with a column of P less, a simpler entry of it, or a smaller system; where n_z is less then, a row less."""
+    system, P = choice.system, choice.P
+    for k in range(P.ncols):
+        yield Choice(system, P.columns(j for j in range(P.ncols) if j != k))
+    for other in steps(system):
+        n_z = fault_space_dimension(other)
+        if n_z <= P.nrows:
+            for rows in combinations(range(P.nrows), n_z):
+                yield Choice(other, P.rows(rows))
+    for simpler in simpler_matrices(P):
+        yield Choice(system, simpler)
 
 
 @lru_cache(maxsize=8)
@@ -90,7 +135,7 @@ def _others(subject: Subject, rng: random.Random) -> Iterator[ResidualSystem]:
         yield with_pair(space, Matrix.of(entries, system.field, shape=(space.dimension, columns)))
 
 
-def _steps(pair: Pair) -> Iterator[Pair]:
+def _pair_steps(pair: Pair) -> Iterator[Pair]:
     """Yield the pairs with a state, a fault, an output or an entry less; of a common (A, C) in both systems at once."""
     one, other, shared = pair.first, pair.second, pair.one_A_and_C
     if shared:

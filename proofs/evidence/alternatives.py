@@ -7,6 +7,7 @@ ALTERNATIVES              every (F', G') over GF(2) at small dimensions; pairs (
 examine_pair, examine_alternative    the evidence on one of each
 comparison_certificate    the certificate of equality or of the first difference, whichever is so
 relatives                 systems made of one, with the same outputs or nearly
+small_columns             matrices P of several kinds
 ranked, fault_space_basis    what is asked of one system of a pair alone, kept because a system stands in many of them
 """
 
@@ -203,7 +204,7 @@ def _alternatives(bench: Any) -> Iterator[tuple[str, ResidualSystem, ResidualSys
     for system in [*named, *random_systems(QQ, 600 if full else 60, seed=3)]:
         space = fault_space(kernel_representation(system))
         rng = random.Random(str(system))
-        for P in _choices(space.dimension, system.m, rng):
+        for P in small_columns(space.dimension, system.m, rng):
             yield "pairs (Fhat P, Ghat P) over Q, P generic, sparse and rank-deficient", system, with_pair(space, P), 1
     for n, p, m in product(range(3 if full else 2), range(3), range(1, 3 if full else 2)):
         columns = list(product(range(2), repeat=(n + p) * m))
@@ -219,7 +220,7 @@ def _alternatives(bench: Any) -> Iterator[tuple[str, ResidualSystem, ResidualSys
                 )
 
 
-def _choices(rows: int, cols: int, rng: random.Random) -> Iterator[Matrix]:
+def small_columns(rows: int, cols: int, rng: random.Random) -> Iterator[Matrix]:
     """Yield P of several kinds: generic, sparse, of unit columns and rank-deficient."""
     for density in (1.0, 0.5, 0.3):
         yield Matrix.of(

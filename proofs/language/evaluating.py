@@ -21,7 +21,8 @@ from typing import Any, Protocol
 from ...base.errors import shorten
 from ...exact.algebra.matrices import Matrix, beside, rank, stacked
 from ...exact.algebra.stability import is_stable
-from ..quantities.cases import Case, Pair, PairSubject
+from ..quantities.cases import Case, Choice, ChoiceSubject, Pair, PairSubject
+from ..quantities.choices import OF_A_CHOICE
 from ..quantities.pairs import OF_A_PAIR, OF_ONE_A_AND_C
 from ..quantities.ranks import Wanted
 from ..quantities.registry import Quantity, Subject, quantities
@@ -100,9 +101,9 @@ class Exactly:
         return self.subjects[subject], quantities()[name]
 
     def matrix(self, subject: str, name: str) -> Matrix:
-        """Return A, F, C or G; of two systems without a name of one, A or C, which are the same."""
-        one = self.subjects[subject] if subject in self.subjects else next(iter(self.subjects.values()))
-        found: Matrix = getattr(one.system, name)
+        """Return A, F, C or G of a system, or a matrix of the whole."""
+        whole = {} if subject or self.whole is None else self.whole.matrices
+        found: Matrix = whole[name] if name in whole else getattr(self.subjects[subject].system, name)
         return found
 
     def of_matrix(self, node: Node, bound: Bound) -> Any:
@@ -134,6 +135,9 @@ def exactly(case: Case, known: Subject | PairSubject | None = None) -> Exactly:
     if isinstance(case, Pair):
         pair = known if isinstance(known, PairSubject) else PairSubject(Subject(case.first), Subject(case.second))
         return Exactly(pair.subjects, OF_ONE_A_AND_C if case.one_A_and_C else OF_A_PAIR, pair)
+    if isinstance(case, Choice):
+        choice = known if isinstance(known, ChoiceSubject) else ChoiceSubject(Subject(case.system), case.P)
+        return Exactly(choice.subjects, OF_A_CHOICE, choice)
     return Exactly({"": known if isinstance(known, Subject) else Subject(case)})
 
 

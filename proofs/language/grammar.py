@@ -72,6 +72,8 @@ class _Reader:
         return ast.get_source_segment(self.text, tree) or ast.unparse(tree)
 
     def unknown(self, tree: ast.AST, name: str, known: list[str]) -> InvalidInput:
+        if name in self.vocabulary.names():
+            raise self.bad(tree, f"got {shorten(self.words(tree))}, expected {name} alone: it belongs to none of the systems")
         elsewhere = [about for about, one in VOCABULARIES.items() if name in one.names()]
         if elsewhere:
             raise self.bad(

@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from ..quantities.choices import OF_A_CHOICE
 from ..quantities.pairs import OF_A_PAIR, OF_ONE_A_AND_C
 from ..quantities.registry import Quantity, quantities
 
 Sides = tuple[tuple[str, ...], tuple[str, ...]]
-SYSTEM, PAIR, ONE_A_AND_C = "system", "pair", "pair with the same (A, C)"
+SYSTEM, PAIR, ONE_A_AND_C, CHOICE = "system", "pair", "pair with the same (A, C)", "choice"
 
 
 @dataclass(frozen=True)
@@ -55,12 +56,14 @@ def _of_a_system(subject: str, states: str, faults: str) -> dict[tuple[str, str]
 
 
 _BOTH = _of_a_system("first", "x", "v1") | _of_a_system("second", "x", "v2") | {("", "A"): (("x",), ("x",)), ("", "C"): (("y",), ("x",))}
+_CHOSEN = _of_a_system("", "x", "v") | _of_a_system("chosen", "x", "k") | {("", "P"): (("z",), ("k",))}
 VOCABULARIES = {
     one.about: one
     for one in (
         Vocabulary(SYSTEM, ("",), {}, _of_a_system("", "x", "v")),
         Vocabulary(PAIR, ("first", "second"), OF_A_PAIR, _of_a_system("first", "x1", "v1") | _of_a_system("second", "x2", "v2")),
         Vocabulary(ONE_A_AND_C, ("first", "second"), OF_ONE_A_AND_C, _BOTH),
+        Vocabulary(CHOICE, ("", "chosen"), OF_A_CHOICE, _CHOSEN),
     )
 }
 ABOUT_A_SYSTEM = VOCABULARIES[SYSTEM]

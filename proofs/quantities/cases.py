@@ -12,7 +12,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from ...exact.algebra.matrices import Matrix
 from ...exact.structure.behavior import Comparison, compare
+from ...exact.structure.fault_columns import with_pair
 from ...exact.system.systems import ResidualSystem
 from .subjects import Subject
 
@@ -42,6 +44,27 @@ class Pair:
         return {"first": self.first.to_json(), "second": self.second.to_json()}
 
 
+@dataclass(frozen=True)
+class Choice:
+    """A system, and P (n_z x k) over its field, n_z the dimension of its fault space."""
+
+    system: ResidualSystem
+    P: Matrix
+
+    def __str__(self) -> str:
+        return f"{self.system}; P={self.P}"
+
+    @property
+    def size(self) -> tuple[int, ...]:
+        """n + m + p, then k, then n, m, p."""
+        system = self.system
+        return (system.n + system.m + system.p, self.P.ncols, system.n, system.m, system.p)
+
+    def to_json(self) -> dict[str, Any]:
+        """The system, as exact files hold it, and P with its number of columns."""
+        return {"system": self.system.to_json(), "P": self.P.to_json(), "k": self.P.ncols}
+
+
 class PairSubject:
     """A pair and what is known of it; the same Subject may be part of many pairs."""
 
@@ -53,13 +76,36 @@ class PairSubject:
         """The two systems by their names."""
         return {"first": self.first, "second": self.second}
 
+    @property
+    def matrices(self) -> dict[str, Matrix]:
+        """These are matrices that both have, or that belong to neither."""
+        return {"A": self.first.system.A, "C": self.first.system.C}
+
     @cached_property
     def comparison(self) -> Comparison:
         """This has the shortest word of each system that the other cannot make, where there is one."""
         return compare(self.first.kernel, self.second.kernel)
 
 
-Case = ResidualSystem | Pair
+class ChoiceSubject(PairSubject):
+    """A system and (A, Fhat P, C, Ghat P), [Fhat; Ghat] being the reduced basis of its fault space, and what is known of both."""
+
+    def __init__(self, system: Subject, P: Matrix) -> None:
+        super().__init__(system, Subject(with_pair(system.fault_space, P)))
+        self.P = P
+
+    @property
+    def subjects(self) -> dict[str, Subject]:
+        """The two systems by their names."""
+        return {"": self.first, "chosen": self.second}
+
+    @property
+    def matrices(self) -> dict[str, Matrix]:
+        """This is P."""
+        return {"P": self.P}
+
+
+Case = ResidualSystem | Pair | Choice
 
 
 def size_of(case: Case) -> tuple[int, ...]:

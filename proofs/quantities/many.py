@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .cases import Case
-from .elimination import Integers, times
+from .elimination import Integers, Overflow, times
 
 Chosen = NDArray[np.intp]
 
@@ -29,9 +29,10 @@ class Column:
 
 
 class Many(ABC):
-    """These are cases over Q (`prime` None) or GF(prime); `own` are the quantities of a case as a whole, by their names."""
+    """These are cases over Q (`prime` None) or GF(prime), of integers over one `denominator`; `own` are the quantities of the whole."""
 
     prime: int | None
+    denominator: int
     own: Mapping[str, Any]
     _columns: dict[object, Column]
 
@@ -66,7 +67,9 @@ class Many(ABC):
         return found if self.prime is None else found % self.prime
 
     def kept(self, key: object, rows: Chosen, find: Callable[[Self], Integers]) -> Integers:
-        """Return what `find` finds for the cases of these rows, which is found once; narrower rows are filled up with zeros."""
+        """Return what `find` finds for these rows, which is found once; narrower rows are filled up with zeros. Raises Overflow."""
+        if self.denominator != 1:
+            raise Overflow("numbers over a denominator")
         if key not in self._columns:
             self._columns[key] = Column(np.zeros(len(self), dtype=bool), np.zeros((len(self), 0), dtype=np.int64))
         column = self._columns[key]

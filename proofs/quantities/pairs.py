@@ -3,7 +3,7 @@
     OF_A_PAIR             the quantities of a pair, by their names
     OF_ONE_A_AND_C        those of a pair with the same (A, C), which has one n
     Pairs                 many pairs at once
-    TOGETHER              rank [O_s T_s] of the two systems side by side, s = 0, ..., n + 1 with the larger n
+    TOGETHER, together    rank [O_s T_s] of the two systems side by side, s = 0, ..., n + 1 with the larger n
 
 The outputs of s samples of the first are among those of the second iff the matrices [O_s T_s] of both side by side have no larger rank than
 that of the second. A kernel row of the second that has degree s decides whether the first obeys it on s + 1 samples; no degree exceeds its
@@ -26,7 +26,7 @@ from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from .batches import Batch, window
 from .cases import Pair, PairSubject
-from .elimination import Integers, Overflow, leading_ranks
+from .elimination import Integers, leading_ranks
 from .many import Chosen, Column, Many
 from .ranks import WINDOW, Numbers
 from .registry import Kind, Quantity
@@ -59,6 +59,11 @@ class Pairs(Many):
         return self.first.prime
 
     @property
+    def denominator(self) -> int:  # type: ignore[override]
+        """This is that of all systems."""
+        return self.first.denominator
+
+    @property
     def sizes(self) -> Mapping[str, tuple[int, int, int]]:
         """These are n, m, p of both systems."""
         return {name: (one.n, one.m, one.p) for name, one in (("first", self.first), ("second", self.second))}
@@ -83,15 +88,14 @@ class Pairs(Many):
             batch, places = (self.second, self.seconds) if subject == "second" else (self.first, self.firsts)
             distinct, which = np.unique(places[rows], return_inverse=True)
             return batch.column(family, distinct)[which]
-        return self.kept(key, rows, find or _together)
+        return self.kept(key, rows, find or together)
 
 
-def _together(pairs: Pairs) -> Integers:
+def together(pairs: Any) -> Integers:
+    """Return rank [O_s T_s] of both systems side by side, of pairs or choices; s = 0, ..., n + 1. Raises Overflow."""
     samples = max(pairs.first.n, pairs.second.n) + 1
     built = []
     for batch, places in ((pairs.first, pairs.firsts), (pairs.second, pairs.seconds)):
-        if batch.denominator != 1:
-            raise Overflow("numbers over a denominator")
         distinct, which = np.unique(places, return_inverse=True)
         built.append(window(batch.part(distinct), samples)[which])
     ranks = leading_ranks(np.concatenate(built, axis=2), pairs.prime)
@@ -99,10 +103,16 @@ def _together(pairs: Pairs) -> Integers:
 
 
 def _equal_at(numbers: Numbers, s: int) -> bool:
-    return _contained_at(numbers, s, "first", "second") and _contained_at(numbers, s, "second", "first")
+    return all(_contained_in(numbers, s, outer) for outer in reversed(tuple(numbers.sizes)))
 
 
-def _contained_at(numbers: Numbers, s: int, inner: str, outer: str) -> bool:
+def _contained_at(numbers: Numbers, s: int) -> bool:
+    """Whether the outputs of the first are among those of the second."""
+    _, second = numbers.sizes
+    return _contained_in(numbers, s, second)
+
+
+def _contained_in(numbers: Numbers, s: int, outer: str) -> bool:
     table = numbers.table(TOGETHER)
     at = min(s, len(table) - 1)
     return table[at] == numbers.of(outer).at(WINDOW, at)
@@ -192,7 +202,7 @@ _LISTED = (
         Kind.WORD,
         "every output of the first is one of the second, on every window",
         lambda x: _contained(x) is None,
-        lambda r: _contained_at(r, _last(r), "first", "second"),
+        lambda r: _contained_at(r, _last(r)),
         _contained_borne,
     ),
     Quantity(
@@ -217,7 +227,7 @@ _LISTED = (
         Kind.WORD,
         "every output of s samples of the first is one of the second",
         lambda x, s: _after(_contained(x), s),
-        lambda r, s: _contained_at(r, s, "first", "second"),
+        _contained_at,
         _contained_on_borne,
         windowed=True,
     ),

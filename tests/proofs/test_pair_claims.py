@@ -75,10 +75,10 @@ def by_definition(pair: Pair, samples: int) -> dict[str, Any]:
 
 def material(about: str, field: str) -> Iterator[tuple[Pair, Numbers]]:
     """Yield pairs of every kind of sizes, zero among them, and what is found of many at once."""
-    box = box_of(about, field, n=[0, 2], m=[0, 2], p=[0, 2], total=3, entries=[0, 1])
+    box = box_of(about, field, n=[0, 2], m=[0, 1], p=[0, 2], total=3, entries=[0, 1])
     for number, sizes in enumerate(box.sizes()):
         count = box.count(*sizes)
-        step = every(max(1, count // 5)) if count > 20 else 1
+        step = every(max(1, count // 3)) if count > 20 else 1
         for batch in (stretch.batch for stretch in islice(box.stretches(sizes, reduced=False), 1)):
             rows = np.arange(number % step, len(batch), max(1, min(step, len(batch) // 2)))
             keys = [("first", "OT"), ("second", "OT"), "OT side by side"]
@@ -93,7 +93,7 @@ def material(about: str, field: str) -> Iterator[tuple[Pair, Numbers]]:
 def test_a_quantity_of_a_pair_is_what_slow_ways_find(about: str, field: str) -> None:
     seen = dict.fromkeys(OF_A_PAIR, 0)
     for pair, numbers in material(about, field):
-        samples = pair.first.n + pair.second.n + 3
+        samples = max(pair.first.n, pair.second.n) + 3
         told, knows = by_definition(pair, samples), exactly(pair)
         for name, one in (OF_ONE_A_AND_C if KINDS[about] else OF_A_PAIR).items():
             wanted = told[name]
@@ -121,15 +121,16 @@ def test_every_pair_of_one_state_is_told_apart_as_by_definition(field: str) -> N
 
 
 def test_a_broken_quantity_of_a_pair_refutes_a_theorem(monkeypatch: pytest.MonkeyPatch) -> None:
+    one = {**ONE, "entries": [0, 1]}
     text = "iff(equal, first_difference == inf) and implies(equal_on(max(first.n, second.n) + 1), equal)"
-    assert decided(text, **ONE).verdict == Answered.NOT_REFUTED
+    assert decided(text, **one).verdict == Answered.NOT_REFUTED
     right = OF_A_PAIR["equal_on"]
     late = replace(right, exact=lambda x, s: right.exact(x, s - 1), from_ranks=lambda r, s: right.from_ranks(r, s - 1))
     monkeypatch.setitem(OF_A_PAIR, "equal_on", late)
-    assert decided(text, **ONE).verdict == Answered.REFUTED
+    assert decided(text, **one).verdict == Answered.REFUTED
     monkeypatch.setitem(OF_A_PAIR, "equal_on", replace(right, from_ranks=lambda r, s: right.from_ranks(r, s - 1)))
     with pytest.raises(ArithmeticError, match="disagree"):
-        decided(text, **ONE)
+        decided(text, **one)
 
 
 # -- the box -----------------------------------------------------------------------------------------------------------
@@ -239,7 +240,7 @@ EXAMPLES = {one.id: one for one in read_claims(content("example:pairs").decode()
 @pytest.mark.parametrize("name", list(EXAMPLES))
 def test_an_example_about_pairs_is_answered_as_expected(name: str) -> None:
     claim = EXAMPLES[name]
-    small = {field: replace(box, total=3) if claim.about == PAIR else replace(box, n=(1, 1)) for field, box in claim.boxes.items()}
+    small = {field: replace(box, n=(1, 1), total=3 if claim.about == PAIR else 4) for field, box in claim.boxes.items()}
     answers = decide_claims([replace(claim, boxes=small)])
     assert answers.as_expected, answers.title
     for one in answers.certificates:
@@ -331,7 +332,7 @@ def test_every_number_of_samples_is_decided_for_pairs() -> None:
     ]
     box = box_of(PAIR, n=[0, 2], m=[0, 1], p=[1, 1], total=3, entries=[0, 1])
     for sizes in box.sizes():
-        for batch, i in islice(all_pairs(box, sizes), 0, 600, 41):
+        for batch, i in islice(all_pairs(box, sizes), 0, 400, 71):
             knows = exactly(batch.case(i))
             for text in texts:
                 near = text.replace("windows(0)", "windows(0, 12)").replace("windows(1)", "windows(1, 12)")
@@ -348,7 +349,7 @@ REFUSED = [
     ("first == second", "got first alone, expected a name after first., first.lag say"),
     ("first.lagg == 1", "the nearest is lag"),
     ("frist.lag == 1", "expected .T of a matrix, or a name after first. or second."),
-    ("first.equal", "got 'equal', a word of claims about a pair"),
+    ("first.equal", "got 'first.equal', expected equal alone"),
     ("equl", "the nearest is equal"),
     ("equal(1)", "equal is no function"),
     ("equal_on", "expected equal_on(s)"),
@@ -366,7 +367,7 @@ REFUSED = [
 def test_what_is_refused_about_pairs_is_told_in_words(text: str, words: str) -> None:
     with pytest.raises(InvalidInput) as error:
         read(text, vocabulary=VOCABULARIES[PAIR])
-    assert words.replace("'equal'", "equal") in str(error.value).replace("'equal'", "equal")
+    assert words in str(error.value)
 
 
 def test_words_of_other_claims_are_named() -> None:
@@ -426,3 +427,12 @@ def test_explaining_and_the_command(tmp_path: Path, capsys: pytest.CaptureFixtur
     pair.write_text(json.dumps({"first": first, "second": {**second, "A": [["5"]]}}))
     assert main(["claim", str(claims), "--explain", str(pair)]) == 2
     assert "expected the same in both" in capsys.readouterr().err
+
+
+def test_entries_over_a_denominator_are_decided_too() -> None:
+    given = {**ONE, "entries": [0, "1/2"]}
+    for text in ("rank(first.A @ first.A - second.A) <= 0", "equal or not first.left_invertible"):
+        claim = make_claim("x", {"about": PAIR, "conclusion": text, "box": given})
+        answer = decided(text, **given)
+        wanted = next(one for one in in_order(box_of(PAIR, **given)) if not evaluate(claim.conclusion, exactly(one)))
+        assert answer.counterexample.case == wanted
