@@ -20,6 +20,7 @@ from faultspace.proofs.evidence.attacks import Aim
 from faultspace.proofs.hypotheses import ablations
 from faultspace.proofs.quantities.choices import OF_A_CHOICE
 from faultspace.proofs.quantities.pairs import OF_ONE_A_AND_C
+from faultspace.proofs.quantities.records import OF_A_RECORD
 from faultspace.proofs.quantities.registry import Kind, Quantity, quantities
 from faultspace.proofs.verdict.ledger import Claim, expected_without, load
 from faultspace.proofs.verdict.picture import Line, draw
@@ -107,13 +108,15 @@ def nearest(record: AttackRecord) -> str:
 
 
 def quantities_table() -> list[str]:
-    """Return the tables of your-claims.md, a row a quantity: of a system, then of a pair and of a choice."""
+    """Return the tables of your-claims.md, a row a quantity: of a system, then of a pair, a choice, a record."""
     return [
         *_quantities_table(quantities()),
         *("", "Of a pair, beside those of `first` and `second` (`n` where both have the same A and C):", ""),
         *_quantities_table(OF_ONE_A_AND_C),
         *("", "Of a choice, beside those of the system and of `chosen`, and the matrix `P`:", ""),
         *_quantities_table(OF_A_CHOICE),
+        *("", "Of a record, beside those of the system and of `inputs`, and the matrices `B`, `D`, `u` (N x nu) and `x0`:", ""),
+        *_quantities_table(OF_A_RECORD),
     ]
 
 
@@ -121,7 +124,7 @@ def _quantities_table(listed: Mapping[str, Quantity]) -> list[str]:
     rows = ["| name | what it is | meaning | borne by certificates |", "|---|---|---|---|"]
     for name, one in sorted(listed.items(), key=lambda item: (item[1].windowed, list(Kind).index(item[1].kind), item[0])):
         borne = (
-            "no: computed" if one.certificates is None else "where true" if name == "stable" else "read off" if name in "nmpk" else "yes"
+            "no: computed" if one.certificates is None else "where true" if name == "stable" else "read off" if name in READ_OFF else "yes"
         )
         meaning = one.meaning.replace("|", r"\|")
         kind = "a function of s" if one.windowed else str(one.kind)
@@ -129,6 +132,7 @@ def _quantities_table(listed: Mapping[str, Quantity]) -> list[str]:
     return rows
 
 
+READ_OFF = ("n", "m", "p", "k", "N", "nu")
 TABLES: dict[str, Callable[[], list[str]]] = {
     "adversary.md": attacks_table,
     "claims.md": claims_table,

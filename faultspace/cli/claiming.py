@@ -16,7 +16,7 @@ from ..base.messages import say
 from ..base.progress import evenly, working
 from ..base.sheets import NAME_WIDTH, line
 from ..proofs.brought.answers import ClaimAnswers
-from ..proofs.brought.case_files import is_choice, is_pair, read_case
+from ..proofs.brought.case_files import is_choice, is_pair, is_record, read_case
 from ..proofs.brought.claim_files import read_claims
 from ..proofs.brought.claiming import MOST, decide_claims, explain
 from ..proofs.brought.claims import Answered, Claim, nearest
@@ -82,7 +82,7 @@ def _explain(claims: list[Claim], on: str, *, as_json: bool) -> int:
     document = read_json(on)
     told = {}
     with in_file(on):
-        case = read_case(document) if is_pair(document) or is_choice(document) else system_in(document).residual
+        case = read_case(document) if any(one(document) for one in (is_pair, is_choice, is_record)) else system_in(document).residual
         for one in claims:
             told[one.id] = list(explain(one, case))
     if as_json:

@@ -156,7 +156,7 @@ def _high(choices: Choices, entries: list[Fraction], level: int) -> NDArray[np.b
         return np.ones(len(choices), dtype=bool)
     scale = lcm(*(x.denominator for x in entries))
     high = [int(x * scale) for x in entries if height(x) == level]
-    found = np.isin(choices.P, high).any(axis=(1, 2))
+    found: NDArray[np.bool_] = np.asarray(np.isin(choices.P, high).any(axis=(1, 2)))
     for name in "AFCG":
         found |= np.isin(choices.matrix("", name), high).any(axis=(1, 2))
     return found

@@ -22,21 +22,23 @@ from flint import fmpz
 from ...base.errors import InvalidInput, shorten
 from ..language.grammar import read
 from ..language.nodes import Node, reads, walk
-from ..language.vocabularies import ABOUT_A_SYSTEM, CHOICE, ONE_A_AND_C, PAIR, SYSTEM, VOCABULARIES, Vocabulary
+from ..language.vocabularies import ABOUT_A_SYSTEM, CHOICE, ONE_A_AND_C, PAIR, RECORD, SYSTEM, VOCABULARIES, Vocabulary
 from ..quantities.registry import Kind, quantities
 from .boxes import Box
 from .choice_boxes import ChoiceBox
 from .pair_boxes import PairBox
+from .record_boxes import RecordBox
 
 KEYS = ("statement", "source", "about", "hypotheses", "conclusion", "fields", "box", "expected")
 BOX_KEYS = ("n", "m", "p", "total", "entries")
-ABOUT = ("system", "pair", "pair with the same (A, C)", "choice", "record")
+OWN_KEYS: dict[str, tuple[str, ...]] = {CHOICE: ("k",), RECORD: ("nu", "N")}
 _TWO = PairBox(n=(1, 2), m=(1, 2), p=(1, 2), total=4)
 USUAL: dict[str, Box] = {
     SYSTEM: Box(),
     PAIR: _TWO,
     ONE_A_AND_C: replace(_TWO, one_A_and_C=True),
     CHOICE: ChoiceBox(n=(1, 2), total=4),
+    RECORD: RecordBox(n=(1, 2), m=(0, 0), p=(1, 1), total=3),
 }  # the boxes where none is stated
 LARGEST_SIZE, LARGEST_TOTAL, LARGEST_PRIME, MOST_ENTRIES = 8, 16, 97, 32
 LONGEST_TEXT, MOST_HYPOTHESES, MOST_FIELDS = 2000, 16, 8
@@ -126,7 +128,7 @@ def expression(given: object, where: str, kind: Kind = Kind.WORD, vocabulary: Vo
 def make_box(given: Mapping[str, Any], prime: int | None, about: str = SYSTEM) -> Box:
     """Return the box with these bounds over Q or GF(prime). Raises InvalidInput that begins with `box`."""
     plain = USUAL[about]
-    own = ("k",) if about == CHOICE else ()
+    own = OWN_KEYS.get(about, ())
     known = (*BOX_KEYS, *own)
     for key in given:
         if key not in known:
@@ -146,9 +148,8 @@ def make_box(given: Mapping[str, Any], prime: int | None, about: str = SYSTEM) -
 def _about(about: object) -> str:
     if isinstance(about, str) and about in USUAL:
         return about
-    if about in ABOUT:
-        raise InvalidInput(f"about: got {shorten(about)}, which this version does not decide yet; expected one of {', '.join(USUAL)}")
-    raise InvalidInput(f"about: got {shorten(about)}; {nearest(about, ABOUT) if isinstance(about, str) else f'expected one of {ABOUT}'}")
+    known = tuple(USUAL)
+    raise InvalidInput(f"about: got {shorten(about)}; {nearest(about, known) if isinstance(about, str) else f'expected one of {known}'}")
 
 
 def _hypotheses(given: object, vocabulary: Vocabulary) -> list[Hypothesis]:

@@ -6,7 +6,8 @@
 A known system is one for every claim about systems. Pairs of the corpus are shift registers, which differ late, and small known systems and
 their relatives: the same by feedback and another basis, changed in an entry, with a state more. Those of the adversary are its systems with
 other faults (Fhat P, Ghat P) that explain n samples, and P small integers from a seed. Choices are those of small known systems with P that
-are generic, sparse, of unit columns, rank-deficient, and, where there is one, a P by which the normal rank is lost.
+are generic, sparse, of unit columns, rank-deficient, and, where there is one, a P by which the normal rank is lost. Records are
+those of small known systems with their faults as inputs, short ones and such as are long enough to excite.
 """
 
 from __future__ import annotations
@@ -21,15 +22,15 @@ from ...exact.algebra.fields import QQ, Field, PrimeField
 from ...exact.algebra.matrices import Matrix
 from ...exact.pairs.witnesses import BadPair, bad_pair
 from ...exact.structure.fault_columns import fault_space, fault_space_dimension, with_pair
-from ...exact.system.systems import ResidualSystem
+from ...exact.system.systems import FaultySystem, ResidualSystem
 from ..evidence.alternatives import relatives, small_columns
 from ..evidence.families import shift_registers
 from ..evidence.pairs_by_polynomial import pencil_of
-from ..language.vocabularies import CHOICE, ONE_A_AND_C, SYSTEM
-from ..quantities.cases import Case, Choice, ChoiceSubject, Pair, PairSubject
+from ..language.vocabularies import CHOICE, ONE_A_AND_C, RECORD, SYSTEM
+from ..quantities.cases import Case, Choice, ChoiceSubject, Known, Pair, PairSubject, Record, RecordSubject
 from ..quantities.subjects import Subject
 from .boxes import Box
-from .known_systems import CORPUS, known_systems, over, simpler_matrices, steps, with_matrix, without_output, without_state
+from .known_systems import CORPUS, known_systems, over, simpler_matrices, steps, with_matrix, without_fault, without_output, without_state
 
 LARGEST_STATES, REGISTERS, CHOICES, SEED = 3, 6, 2, 1
 
@@ -40,7 +41,7 @@ class KnownCase:
 
     origin: str
     case: Case
-    subject: Subject | PairSubject
+    subject: Known
 
 
 def known_cases(box: Box) -> tuple[KnownCase, ...]:
@@ -49,6 +50,8 @@ def known_cases(box: Box) -> tuple[KnownCase, ...]:
         return tuple(KnownCase(one.origin, one.subject.system, one.subject) for one in known_systems(box.prime))
     if box.about == CHOICE:
         return _choices(box.prime)
+    if box.about == RECORD:
+        return _records(box.prime)
     return _pairs(box.prime, box.about == ONE_A_AND_C)
 
 
@@ -64,7 +67,59 @@ def smaller(case: Case, fails: Callable[[Case], bool]) -> Case:
 def _smaller(case: Case) -> Iterator[Case]:
     if isinstance(case, ResidualSystem):
         return steps(case)
-    return _pair_steps(case) if isinstance(case, Pair) else _choice_steps(case)
+    if isinstance(case, Pair):
+        return _pair_steps(case)
+    return _choice_steps(case) if isinstance(case, Choice) else _record_steps(case)
+
+
+@lru_cache(maxsize=4)
+def _records(prime: int | None) -> tuple[KnownCase, ...]:
+    """Return known systems with their faults as inputs, some under a signal that excites, some under one that does not."""
+    found = []
+    for known in known_systems(prime):
+        system = known.subject.system
+        if system.n > LARGEST_STATES:
+            continue
+        rng, field = random.Random(str(system)), system.field
+        without = system.with_faults(Matrix.zero(field, system.n, 0), Matrix.zero(field, system.p, 0))
+        driven, subject = FaultySystem(without, system.F, system.G), Subject(without)
+        for length in (rng.randint(1, 6), (system.m + 1) * (system.n + 2) + rng.randint(0, 3)):
+            density = rng.choice((0.2, 0.6, 1.0))
+            u = [[rng.randint(-2, 2) if rng.random() < density else 0 for _ in range(system.m)] for _ in range(length)]
+            x0 = [[rng.choice((-1, 0, 1))] for _ in range(system.n)]
+            record = Record(driven, Matrix.of(u, field, shape=(length, system.m)), Matrix.of(x0, field, shape=(system.n, 1)))
+            found.append(KnownCase(known.origin, record, RecordSubject(subject, record)))
+    return tuple(found)
+
+
+def _record_steps(record: Record) -> Iterator[Record]:
+    """Yield the records with a state, output, input, fault or sample less, or a simpler entry."""
+    system, u, x0 = record.system, record.u, record.x0
+    residual, B, D = system.residual, system.B, system.D
+    for k in range(system.n):
+        rest = [i for i in range(system.n) if i != k]
+        yield Record(FaultySystem(without_state(residual, k), B.rows(rest), D), u, x0.rows(rest))
+    for k in range(system.m):
+        yield Record(FaultySystem(without_fault(residual, k), B, D), u, x0)
+    for k in range(system.p):
+        rest = [i for i in range(system.p) if i != k]
+        yield Record(FaultySystem(without_output(residual, k), B, D.rows(rest)), u, x0)
+    for k in range(system.nu):
+        rest = [j for j in range(system.nu) if j != k]
+        yield Record(FaultySystem(residual, B.columns(rest), D.columns(rest)), u.columns(rest), x0)
+    for kept in (range(u.nrows - 1), range(1, u.nrows)) if u.nrows else ():
+        yield Record(system, u.rows(kept), x0)
+    for name in "AFCG":
+        for matrix in simpler_matrices(getattr(residual, name)):
+            yield Record(FaultySystem(with_matrix(residual, name, matrix), B, D), u, x0)
+    for matrix in simpler_matrices(B):
+        yield Record(FaultySystem(residual, matrix, D), u, x0)
+    for matrix in simpler_matrices(D):
+        yield Record(FaultySystem(residual, B, matrix), u, x0)
+    for matrix in simpler_matrices(u):
+        yield Record(system, matrix, x0)
+    for matrix in simpler_matrices(x0):
+        yield Record(system, u, matrix)
 
 
 @lru_cache(maxsize=4)

@@ -86,7 +86,8 @@ class PairBox(Box):
         reduced: bool,
     ) -> Iterator[tuple[Pairs, Integers]]:
         """Yield pairs of each of the first systems with every second one, with the numbers of those that they stand for."""
-        columns, times = (None, seconds[1]) if seconds else _fault_columns(self, sizes[3:], entries, reduced)
+        n, m, p = sizes[3:]
+        columns, times = (np.zeros((0, 0), dtype=np.int64), seconds[1]) if seconds else fault_columns(self, (n, m, p), entries, reduced)
         per = len(times)
         for start in range(0, len(first) * per, AT_ONCE):
             places = np.arange(start, min(start + AT_ONCE, len(first) * per))
@@ -94,7 +95,6 @@ class PairBox(Box):
             if seconds:
                 yield Pairs(first, seconds[0], firsts, which), weights[firsts] * times[which]
                 continue
-            n, m, p = sizes[3:]
             chosen = columns[which]
             F, G = chosen[:, : n * m].reshape(len(chosen), n, m), chosen[:, n * m :].reshape(len(chosen), p, m)
             second = Batch(first.A[firsts], F, first.C[firsts], G, first.prime, first.denominator)
@@ -110,11 +110,11 @@ def _seconds(box: PairBox, sizes: Sizes, entries: list[Fraction], reduced: bool)
         order = np.argsort(stretch.places, kind="stable")
         parts.append(stretch.batch.part(order))
         weights.append(stretch.weights[order])
-    joined = (np.concatenate([part.matrix("", name) for part in parts]) for name in "AFCG")
-    return Batch(*joined, box.prime, parts[0].denominator), np.concatenate(weights)
+    A, F, C, G = (np.concatenate([part.matrix("", name) for part in parts]) for name in "AFCG")
+    return Batch(A, F, C, G, box.prime, parts[0].denominator), np.concatenate(weights)
 
 
-def _fault_columns(box: PairBox, sizes: Sizes, entries: list[Fraction], reduced: bool) -> tuple[Integers, Integers]:
+def fault_columns(box: Box, sizes: Sizes, entries: list[Fraction], reduced: bool) -> tuple[Integers, Integers]:
     """Return all entries of F and G, by rows, in order, with the number of those that each stands for."""
     n, m, p = sizes
     base, length = len(entries), (n + p) * m

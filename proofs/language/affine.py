@@ -16,6 +16,7 @@ at the last integer up to each place and the two after it, is therefore all that
 
 Of two systems n is the larger number of states: the ranks of each are linear from n + 1 on, and whether their outputs of s samples are
 equal, or those of one among those of the other, stays as it is from n + 1 on, since no kernel row of either has a larger degree than n.
+Of a record n is the number of samples, where that is larger: a Hankel matrix with more block rows has no columns, and the rank 0.
 """
 
 from __future__ import annotations

@@ -70,7 +70,7 @@ class _Row:
 
     @property
     def horizon(self) -> int:
-        return max(n for n, _, _ in self.numbers.sizes.values())
+        return max(self.numbers.samples, *(n for n, _, _ in self.numbers.sizes.values()))
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -148,7 +148,7 @@ def _decide(
         name = (keys, row.tobytes())
         if name not in table.answers:
             parts = dict(zip(keys, (tuple(map(int, part)) for part in np.split(row, widths)), strict=True)) if known else {}
-            table.answers[name] = _answer(ask, _Row(Numbers(batch.sizes, parts), batch.own))
+            table.answers[name] = _answer(ask, _Row(Numbers(batch.sizes, parts, batch.samples), batch.own))
         answer = table.answers[name]
         if isinstance(answer, Wanted):
             wanting.setdefault(answer.key, []).append(i)
@@ -226,7 +226,7 @@ def _matrices(node: Node, batch: Many) -> Integers:
     """Return the matrix that an expression is, for every system (N, rows, columns). Raises OneByOne, Overflow; the exact way tells what is
     wrong with shapes.
     """
-    sizes = _Row(Numbers(batch.sizes, {}), batch.own)
+    sizes = _Row(Numbers(batch.sizes, {}, batch.samples), batch.own)
 
     def number(part: Node) -> float:
         try:

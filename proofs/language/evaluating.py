@@ -21,10 +21,11 @@ from typing import Any, Protocol
 from ...base.errors import shorten
 from ...exact.algebra.matrices import Matrix, beside, rank, stacked
 from ...exact.algebra.stability import is_stable
-from ..quantities.cases import Case, Choice, ChoiceSubject, Pair, PairSubject
+from ..quantities.cases import Case, Choice, ChoiceSubject, Known, Pair, PairSubject, Record, RecordSubject
 from ..quantities.choices import OF_A_CHOICE
 from ..quantities.pairs import OF_A_PAIR, OF_ONE_A_AND_C
 from ..quantities.ranks import Wanted
+from ..quantities.records import OF_A_RECORD
 from ..quantities.registry import Quantity, Subject, quantities
 from .affine import decisive
 from .grammar import MATRICES, OF_A_MATRIX
@@ -39,7 +40,7 @@ class Knows(Protocol):
 
     @property
     def horizon(self) -> int:
-        """The number of states, the larger one of two systems: one sample later all that has a window is linear in it."""
+        """The largest number of states, or of samples of a record: one sample later all that has a window is linear in it."""
 
     @property
     def own(self) -> Mapping[str, Quantity]:
@@ -75,7 +76,8 @@ class Exactly:
 
     @property
     def horizon(self) -> int:
-        return max(one.system.n for one in self.subjects.values())
+        samples = self.whole.u.nrows if isinstance(self.whole, RecordSubject) else 0
+        return max(samples, *(one.system.n for one in self.subjects.values()))
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -130,7 +132,7 @@ class Exactly:
         return found
 
 
-def exactly(case: Case, known: Subject | PairSubject | None = None) -> Exactly:
+def exactly(case: Case, known: Known | None = None) -> Exactly:
     """Return what knows a case; `known` is what is known of it already."""
     if isinstance(case, Pair):
         pair = known if isinstance(known, PairSubject) else PairSubject(Subject(case.first), Subject(case.second))
@@ -138,6 +140,9 @@ def exactly(case: Case, known: Subject | PairSubject | None = None) -> Exactly:
     if isinstance(case, Choice):
         choice = known if isinstance(known, ChoiceSubject) else ChoiceSubject(Subject(case.system), case.P)
         return Exactly(choice.subjects, OF_A_CHOICE, choice)
+    if isinstance(case, Record):
+        record = known if isinstance(known, RecordSubject) else RecordSubject(Subject(case.system.residual), case)
+        return Exactly(record.subjects, OF_A_RECORD, record)
     return Exactly({"": known if isinstance(known, Subject) else Subject(case)})
 
 

@@ -11,10 +11,11 @@ from dataclasses import dataclass
 
 from ..quantities.choices import OF_A_CHOICE
 from ..quantities.pairs import OF_A_PAIR, OF_ONE_A_AND_C
+from ..quantities.records import OF_A_RECORD
 from ..quantities.registry import Quantity, quantities
 
 Sides = tuple[tuple[str, ...], tuple[str, ...]]
-SYSTEM, PAIR, ONE_A_AND_C, CHOICE = "system", "pair", "pair with the same (A, C)", "choice"
+SYSTEM, PAIR, ONE_A_AND_C, CHOICE, RECORD = "system", "pair", "pair with the same (A, C)", "choice", "record"
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,11 @@ def _of_a_system(subject: str, states: str, faults: str) -> dict[tuple[str, str]
 
 _BOTH = _of_a_system("first", "x", "v1") | _of_a_system("second", "x", "v2") | {("", "A"): (("x",), ("x",)), ("", "C"): (("y",), ("x",))}
 _CHOSEN = _of_a_system("", "x", "v") | _of_a_system("chosen", "x", "k") | {("", "P"): (("z",), ("k",))}
+_DRIVEN = (
+    _of_a_system("", "x", "v")
+    | _of_a_system("inputs", "x", "u")
+    | {("", "B"): (("x",), ("u",)), ("", "D"): (("y",), ("u",)), ("", "u"): (("t",), ("u",)), ("", "x0"): (("x",), ("1",))}
+)
 VOCABULARIES = {
     one.about: one
     for one in (
@@ -64,6 +70,7 @@ VOCABULARIES = {
         Vocabulary(PAIR, ("first", "second"), OF_A_PAIR, _of_a_system("first", "x1", "v1") | _of_a_system("second", "x2", "v2")),
         Vocabulary(ONE_A_AND_C, ("first", "second"), OF_ONE_A_AND_C, _BOTH),
         Vocabulary(CHOICE, ("", "chosen"), OF_A_CHOICE, _CHOSEN),
+        Vocabulary(RECORD, ("", "inputs"), OF_A_RECORD, _DRIVEN),
     )
 }
 ABOUT_A_SYSTEM = VOCABULARIES[SYSTEM]

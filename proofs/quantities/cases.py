@@ -2,7 +2,9 @@
 
 Case        a system, or one of the following
 Pair        two systems over one field with as many outputs each
-PairSubject what is known of a pair, found when it is first asked for
+Choice      a system and a P, by which the columns of its fault space are combined to those of another one
+Record      a system with inputs, and what drove it
+PairSubject, ChoiceSubject, RecordSubject    what is known of them, found when it is first asked for
 case_json   what a program is told of a case
 """
 
@@ -15,7 +17,8 @@ from typing import Any
 from ...exact.algebra.matrices import Matrix
 from ...exact.structure.behavior import Comparison, compare
 from ...exact.structure.fault_columns import with_pair
-from ...exact.system.systems import ResidualSystem
+from ...exact.structure.signals import Trajectory, simulate
+from ...exact.system.systems import FaultySystem, ResidualSystem
 from .subjects import Subject
 
 
@@ -65,6 +68,28 @@ class Choice:
         return {"system": self.system.to_json(), "P": self.P.to_json(), "k": self.P.ncols}
 
 
+@dataclass(frozen=True)
+class Record:
+    """A system with nu inputs, driven by u (N x nu, time down the rows) from x0 (n x 1), its faults at rest."""
+
+    system: FaultySystem
+    u: Matrix
+    x0: Matrix
+
+    def __str__(self) -> str:
+        return f"{self.system}; u={self.u}, x0={self.x0}"
+
+    @property
+    def size(self) -> tuple[int, ...]:
+        """n + m + p, then nu, N, and n, m, p."""
+        system = self.system
+        return (system.n + system.m + system.p, system.nu, self.u.nrows, system.n, system.m, system.p)
+
+    def to_json(self) -> dict[str, Any]:
+        """The system, as exact files hold it, u with a row a sample, and x0."""
+        return {"system": self.system.to_json(), "u": self.u.to_json(), "x0": [row[0] for row in self.x0.to_json()]}
+
+
 class PairSubject:
     """A pair and what is known of it; the same Subject may be part of many pairs."""
 
@@ -105,7 +130,31 @@ class ChoiceSubject(PairSubject):
         return {"P": self.P}
 
 
-Case = ResidualSystem | Pair | Choice
+class RecordSubject:
+    """A record and what is known of it: its system (A, F, C, G), (A, B, C, D) as another one, and the trajectory."""
+
+    def __init__(self, system: Subject, record: Record) -> None:
+        self.system, self.u, self.x0 = system, record.u, record.x0
+        self.inputs = Subject(system.system.with_faults(record.system.B, record.system.D))
+
+    @property
+    def subjects(self) -> dict[str, Subject]:
+        """The two systems by their names."""
+        return {"": self.system, "inputs": self.inputs}
+
+    @property
+    def matrices(self) -> dict[str, Matrix]:
+        """These are what belongs to the record."""
+        return {"B": self.inputs.system.F, "D": self.inputs.system.G, "u": self.u, "x0": self.x0}
+
+    @cached_property
+    def trajectory(self) -> Trajectory:
+        """This is the trajectory from x0 under u."""
+        return simulate(self.inputs.system, self.x0, self.u)
+
+
+Case = ResidualSystem | Pair | Choice | Record
+Known = Subject | PairSubject | RecordSubject
 
 
 def size_of(case: Case) -> tuple[int, ...]:

@@ -45,6 +45,11 @@ class Many(ABC):
     def sizes(self) -> Mapping[str, tuple[int, int, int]]:
         """These are (n, m, p) of each system of a case, which all cases share."""
 
+    @property
+    def samples(self) -> int:
+        """The number of samples of each case, where it has some."""
+        return 0
+
     @abstractmethod
     def case(self, index: int) -> Case:
         """Return one of the cases, as an exact one."""

@@ -100,10 +100,11 @@ class Ranks:
 
 @dataclass(frozen=True)
 class Numbers:
-    """The numbers of one case, as far as they are `known`; `sizes` are (n, m, p) of each of its systems."""
+    """The numbers of one case, as far as they are `known`; `sizes` are (n, m, p) of each of its systems, `samples` those of a record."""
 
     sizes: Mapping[str, tuple[int, int, int]]
     known: Mapping[object, tuple[int, ...]]
+    samples: int = 0
 
     def of(self, subject: str) -> Ranks:
         """Return the ranks of one of the systems."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import product
 from math import inf
@@ -35,7 +35,7 @@ from tests.oracle import behaviours, fault_space
 from tests.oracle.systems import parse_system
 from tests.thorough import every
 
-ONE = {"n": [1, 1], "m": [1, 1], "p": [1, 1], "k": [1, 1]}
+ONE: dict[str, Any] = {"n": [1, 1], "m": [1, 1], "p": [1, 1], "k": [1, 1]}
 
 
 def box_of(field: str = "Q", **box: Any) -> ChoiceBox:
@@ -70,7 +70,7 @@ def by_definition(choice: Choice) -> dict[str, Any]:
     }
 
 
-TEXTS = {
+TEXTS: dict[str, Callable[[dict[str, Any]], bool]] = {
     "equal": lambda told: told["equal"],
     "contained": lambda told: told["contained"],
     "first_difference <= 1": lambda told: told["first_difference"] <= 1,

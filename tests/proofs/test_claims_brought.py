@@ -228,7 +228,8 @@ def test_a_counterexample_outside_the_box_is_made_smaller() -> None:
 
 def test_making_smaller_ends_where_no_step_fails() -> None:
     start = ResidualSystem.of([[3, 2], ["1/2", 5]], [[1, 2], [3, 4]], [[5, 6], [7, 8]], [[0, 9], [1, "7/3"]])
-    end = smaller(start, lambda one: one.n >= 1 and not one.A.is_zero())
+    end = smaller(start, lambda one: isinstance(one, ResidualSystem) and one.n >= 1 and not one.A.is_zero())
+    assert isinstance(end, ResidualSystem)
     assert (end.n, end.m, end.p) == (1, 0, 0) and end.A[0, 0] == 1
 
 
@@ -322,7 +323,7 @@ BAD = [
     ("[claim.x]\nhypotheses = [{that = 'n == 1', name = 'y'}]\nconclusion = 'n == 1'", "line 2: claim.x.hypotheses[0]: got"),
     ("[claim.x]\nhypotheses = 'n == 1'\nconclusion = 'n == 1'", "expected a list of at most"),
     ("[claim.x]\nconclusion = 'n == 1'\nabout = 'pairs'", "line 3: claim.x.about: got 'pairs'; the nearest is pair"),
-    ("[claim.x]\nconclusion = 'n == 1'\nabout = 'record'", "line 3: claim.x.about: got 'record', which this version does not decide yet"),
+    ("[claim.x]\nconclusion = 'n == 1'\nabout = 'recrod'", "line 3: claim.x.about: got 'recrod'; the nearest is record"),
     ("[claim.x]\nconclusion = 'n == 1'\nfields = ['Q(a)']", "number fields are not searched yet"),
     ("[claim.x]\nconclusion = 'n == 1'\nfields = ['GF(4)']", "with a prime q"),
     ("[claim.x]\nconclusion = 'n == 1'\nfields = ['Q', 'Q']", "none twice"),

@@ -40,7 +40,7 @@ from tests.oracle.systems import parse_system
 from tests.thorough import every
 
 KINDS = {PAIR: False, ONE_A_AND_C: True}
-ONE = {"n": [1, 1], "m": [1, 1], "p": [1, 1]}
+ONE: dict[str, Any] = {"n": [1, 1], "m": [1, 1], "p": [1, 1]}
 
 
 def box_of(about: str = PAIR, field: str = "Q", **box: Any) -> PairBox:
@@ -84,7 +84,7 @@ def material(about: str, field: str) -> Iterator[tuple[Pair, Numbers]]:
             keys = [("first", "OT"), ("second", "OT"), "OT side by side"]
             tables = {key: batch.column(key, rows) for key in keys}
             for place, i in enumerate(rows):
-                known = {key: tuple(map(int, table[place])) for key, table in tables.items()}
+                known: dict[object, tuple[int, ...]] = {key: tuple(map(int, table[place])) for key, table in tables.items()}
                 yield batch.case(int(i)), Numbers(batch.sizes, known)
 
 
@@ -121,7 +121,7 @@ def test_every_pair_of_one_state_is_told_apart_as_by_definition(field: str) -> N
 
 
 def test_a_broken_quantity_of_a_pair_refutes_a_theorem(monkeypatch: pytest.MonkeyPatch) -> None:
-    one = {**ONE, "entries": [0, 1]}
+    one: dict[str, Any] = {**ONE, "entries": [0, 1]}
     text = "iff(equal, first_difference == inf) and implies(equal_on(max(first.n, second.n) + 1), equal)"
     assert decided(text, **one).verdict == Answered.NOT_REFUTED
     right = OF_A_PAIR["equal_on"]
@@ -172,7 +172,7 @@ SMALL = [
 @pytest.mark.parametrize("given", SMALL, ids=str)
 def test_a_box_of_pairs_is_gone_through_in_the_stated_order(about: str, given: dict[str, Any]) -> None:
     box = box_of(about, **given)
-    listed = []
+    listed: list[Pair] = []
     for sizes in box.sizes():
         before = len(listed)
         for stretch in box.stretches(sizes, reduced=False):
@@ -289,7 +289,8 @@ def test_a_pair_outside_the_box_is_made_smaller() -> None:
     assert max(case.first.n, case.second.n) == 2 and "outside the box" in answer.summary()
     shared = decided("implies(equal_on(2), equal)", about=ONE_A_AND_C, **ONE).counterexample.case
     assert (shared.first.A, shared.first.C) == (shared.second.A, shared.second.C) and shared.one_A_and_C and shared.first.n == 2
-    start = Pair(*(ResidualSystem.of([[3]], [[1, 2]], [[5], [1]], [[0, 9], [7, 1]]) for _ in range(2)), one_A_and_C=True)
+    system = ResidualSystem.of([[3]], [[1, 2]], [[5], [1]], [[0, 9], [7, 1]])
+    start = Pair(system, system, one_A_and_C=True)
     end = smaller(start, lambda one: isinstance(one, Pair) and one.first.n >= 1 and not one.second.A.is_zero())
     assert isinstance(end, Pair) and (end.first.n, end.first.m, end.first.p, end.second.m) == (1, 0, 0, 0) and end.first.A == end.second.A
 
@@ -430,7 +431,7 @@ def test_explaining_and_the_command(tmp_path: Path, capsys: pytest.CaptureFixtur
 
 
 def test_entries_over_a_denominator_are_decided_too() -> None:
-    given = {**ONE, "entries": [0, "1/2"]}
+    given: dict[str, Any] = {**ONE, "entries": [0, "1/2"]}
     for text in ("rank(first.A @ first.A - second.A) <= 0", "equal or not first.left_invertible"):
         claim = make_claim("x", {"about": PAIR, "conclusion": text, "box": given})
         answer = decided(text, **given)
