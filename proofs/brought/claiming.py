@@ -46,10 +46,11 @@ def claim(
 
     `conclusion` and `hypotheses` are expressions of the language of `docs/your-claims.md`, "delay_known <= n" say, or functions of Python
     that take an object with the same words and return a bool: `lambda s: s.delay_known <= s.n`. With `about` "pair" or "pair with the same
-    (A, C)" it is about two systems: `lambda s: s.equal or s.first_difference <= s.first.n + 1`. `fields` lists "Q" and "GF(q)"; `box` has
-    "n", "m", "p" (first and last number of states, faults, outputs), "total" (the largest n + m + p) and "entries". With `ablation` the
-    claim is tried without each of its hypotheses, too. `most` bounds the number of systems of the box that are gone through, `jobs` is a
-    number of processes, and `on_progress` is called with (stage, done, total). Each quantity of a counterexample comes with certificates,
+    (A, C)" it is about two systems: `lambda s: s.equal or s.first_difference <= s.first.n + 1`; with "choice" about a system and a P, with
+    "record" about a system and its data. `fields` lists "Q" and "GF(q)"; `box` has "n", "m", "p" (first and last number of states, faults,
+    outputs), "total" (the largest n + m + p) and "entries", and "k" of a choice, "nu" and "N" of a record. With `ablation` the claim is
+    tried without each of its hypotheses, too. `most` bounds the number of systems of the box that are gone through, `jobs` is a number of
+    processes, and `on_progress` is called with (stage, done, total). Each quantity of a counterexample comes with certificates,
     as far as the checker has a kind for it, and names what has none. Source: [F75], [VD79] for what is asked of every window.
 
     Raises InvalidInput for what is no expression, for an empty box, and where the claim has no value on a system, which it names.

@@ -276,7 +276,7 @@ def _systems(table: Table, attained: NDArray[np.bool_]) -> int:
 
 
 def _evidence(table: Table) -> Evidence:
-    counts = {name: getattr(table, name) for name in Evidence.__dataclass_fields__ if name not in ("box", "rows")}
+    counts = {name: getattr(table, name) for name in Evidence.__dataclass_fields__ if name not in ("box", "rows", "of")}
     return Evidence(box=str(table.box), rows=len(table.rows), **counts)
 
 

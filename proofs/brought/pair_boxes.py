@@ -102,14 +102,17 @@ class PairBox(Box):
 
 
 def _seconds(box: PairBox, sizes: Sizes, entries: list[Fraction], reduced: bool) -> tuple[Batch, Integers]:
-    """Return the second systems in order, with the number of those that each stands for."""
+    """Return the second systems in order, with the number of those that each stands for. Raises OverflowError where they fit no table."""
     states, faults, outputs = changes(box, sizes, reduced=reduced)
     group = states, faults, outputs[:1]
-    parts, weights = [], []
+    parts, weights, held = [], [], 0
     for stretch in systems_in_order(box, sizes, entries, np.ones(len(entries), dtype=bool), group):
         order = np.argsort(stretch.places, kind="stable")
         parts.append(stretch.batch.part(order))
         weights.append(stretch.weights[order])
+        held += len(order)
+        if held > LARGEST_TABLE:
+            raise OverflowError
     A, F, C, G = (np.concatenate([part.matrix("", name) for part in parts]) for name in "AFCG")
     return Batch(A, F, C, G, box.prime, parts[0].denominator), np.concatenate(weights)
 

@@ -26,6 +26,8 @@ from ..quantities.records import Records
 from .boxes import AT_ONCE, LARGEST_TABLE, Box, Sizes, Stretch, changes, digits_of, height, systems_in_order
 from .pair_boxes import fault_columns
 
+LARGEST_NUMBER = 2**62
+
 
 @dataclass(frozen=True)
 class RecordBox(Box):
@@ -75,6 +77,8 @@ class RecordBox(Box):
             first, weights = stretch.batch.part(order), stretch.weights[order]
             shape = len(first), len(columns), len(signals), len(starts)
             total = len(first) * len(columns) * len(signals) * len(starts)
+            if total >= LARGEST_NUMBER:
+                raise OverflowError
             for start in range(0, total, AT_ONCE):
                 i, j, a, b = np.unravel_index(np.arange(start, min(start + AT_ONCE, total)), shape)
                 pair, seconds = np.unique(i * len(columns) + j, return_inverse=True)

@@ -210,7 +210,7 @@ FAILING = [
 @pytest.mark.parametrize("about", list(KINDS))
 @pytest.mark.parametrize(("conclusion", "hypotheses"), FAILING)
 def test_the_pair_that_refutes_is_the_first_of_the_box(about: str, conclusion: str, hypotheses: list[str]) -> None:
-    given = {"n": [0, 1], "m": [1, 1], "p": [1, 1], "entries": [-1, 0, 1] if KINDS[about] else [0, 1]}
+    given: dict[str, Any] = {"n": [0, 1], "m": [1, 1], "p": [1, 1], "entries": [-1, 0, 1] if KINDS[about] else [0, 1]}
     claim = make_claim("x", {"about": about, "conclusion": conclusion, "hypotheses": hypotheses, "box": given})
     answer = decided(conclusion, *hypotheses, about=about, **given)
     box = claim.boxes["Q"]

@@ -275,7 +275,7 @@ def test_what_is_refused_about_records_is_told_in_words(text: str, words: str) -
 
 
 def test_degenerate_records_have_values() -> None:
-    given = {"n": [0, 1], "m": [0, 0], "p": [0, 1], "total": 2, "nu": [0, 1], "N": [0, 2], "entries": [1]}
+    given: dict[str, Any] = {"n": [0, 1], "m": [0, 0], "p": [0, 1], "total": 2, "nu": [0, 1], "N": [0, 2], "entries": [1]}
     text = "u_rank(0) == 0 and w_rank(0) == 0 and exciting(0) and x_rank(0) <= n and all(x_rank(s) <= n + nu * s for s in windows(0))"
     answer = decided(text, **given)
     assert answer.verdict == Answered.NOT_REFUTED and answer.tried.exhausted
