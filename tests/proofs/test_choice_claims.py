@@ -145,6 +145,14 @@ def test_the_choices_that_are_looked_at_stand_for_all() -> None:
             assert totals[0] == totals[1]
 
 
+def test_no_order_of_states_or_outputs_is_left_out() -> None:
+    """Another order of the states moves the basis by which P is written, so that all systems without a fault are looked at."""
+    for sizes, count in (((2, 0, 1, 1), 3**6), ((1, 0, 2, 1), 3**3)):
+        box = box_of(n=[1, 2], m=[0, 0], p=[1, 2], total=3, k=[1, 1])
+        systems = {str(one.batch.case(i).system) for one in box.stretches(sizes, reduced=True) for i in range(len(one.batch))}
+        assert len(systems) == count
+
+
 FAILING = [
     ("equal", ["left_invertible", "k == m", "rank(P) == k"]),
     ("iff(chosen.normal_rank == normal_rank, equal_on(1))", []),

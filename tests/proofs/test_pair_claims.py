@@ -192,6 +192,20 @@ def test_the_pairs_that_are_looked_at_stand_for_all(about: str, field: str) -> N
         assert total == box.count(*sizes), sizes
 
 
+def test_every_pair_is_a_change_of_one_that_is_looked_at() -> None:
+    """With one state and no fault each, and two outputs: changes are signs of either state, and orders and signs of the outputs of both."""
+    seen: set[tuple[int, ...]] = set()
+    for stretch in box_of(PAIR, n=[1, 1], m=[0, 0], p=[2, 2], total=3).stretches((1, 0, 2, 1, 0, 2), reduced=True):
+        for i in range(len(stretch.batch)):
+            pair = stretch.batch.case(i)
+            A1, A2 = (int(one.A[0, 0]) for one in (pair.first, pair.second))
+            C1, C2 = ([int(one.C[k, 0]) for k in range(2)] for one in (pair.first, pair.second))
+            for t1, t2, a, b, turned in product((1, -1), (1, -1), (1, -1), (1, -1), (False, True)):
+                first, second = [a * C1[0] * t1, b * C1[1] * t1], [a * C2[0] * t2, b * C2[1] * t2]
+                seen.add((A1, *first[:: -1 if turned else 1], A2, *second[:: -1 if turned else 1]))
+    assert len(seen) == 3**6
+
+
 FAILING = [
     ("equal", []),
     ("implies(equal_on(max(first.n, second.n)), equal)", []),
@@ -432,6 +446,8 @@ def test_explaining_and_the_command(tmp_path: Path, capsys: pytest.CaptureFixtur
 
 def test_entries_over_a_denominator_are_decided_too() -> None:
     given: dict[str, Any] = {**ONE, "entries": [0, "1/2"]}
+    squares = decided("implies(is_zero(first.A @ first.A - second.A), nilpotent(first.A))", "first.n == second.n", **given)
+    assert squares.counterexample is None or not squares.counterexample.smallest
     for text in ("rank(first.A @ first.A - second.A) <= 0", "equal or not first.left_invertible"):
         claim = make_claim("x", {"about": PAIR, "conclusion": text, "box": given})
         answer = decided(text, **given)
