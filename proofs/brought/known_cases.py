@@ -131,7 +131,7 @@ def _choices(prime: int | None) -> tuple[KnownCase, ...]:
             continue
         rng = random.Random(str(system))
         pencil = pencil_of(system)
-        listed = [*small_columns(pencil.n_z, system.m, rng), *small_columns(pencil.n_z, pencil.columns, rng)]
+        listed = [P for k in sorted({system.m, pencil.columns}) for P in small_columns(pencil.n_z, k, rng)]
         bad = bad_pair(pencil)
         if isinstance(bad, BadPair):
             listed.append(bad.verdict.P)

@@ -108,7 +108,7 @@ class _Reader:
             case ast.Attribute(value=inner, attr="T"):
                 return self.make(tree, "transpose", MATRIX, (self.expect(self.node(inner, depth + 1), MATRIX, inner),))
             case ast.Attribute():
-                raise self.bad(tree, f"got {shorten(self.words(tree))}, expected .T of a matrix{self._subjects()}")
+                raise self.bad(tree, f"got {shorten(self.words(tree))}, expected .T of a matrix{self._subjects(tree)}")
             case ast.UnaryOp(op=ast.Not(), operand=inner):
                 return self.make(tree, "not", WORD, (self.expect(self.node(inner, depth + 1), WORD, inner),))
             case ast.UnaryOp(op=ast.USub(), operand=inner):
@@ -135,12 +135,16 @@ class _Reader:
                 subject in self.vocabulary.subjects
             ):
                 return self.windowed(tree, subject, name, args, depth, quantities())
+            case ast.Call(keywords=[], func=ast.Attribute() as function) if any(self.vocabulary.subjects):
+                raise self.bad(tree, f"got {shorten(self.words(tree))}, expected the name of a function{self._subjects(function)}")
             case _:
                 raise self.bad(tree, f"got {shorten(self.words(tree))}, which the language has no words for")
 
-    def _subjects(self) -> str:
+    def _subjects(self, tree: ast.Attribute) -> str:
         named = [one for one in self.vocabulary.subjects if one]
-        return f", or a name after {' or '.join(f'{one}.' for one in named)}" if named else ""
+        near = get_close_matches(self.words(tree.value), named, 1, 0.5)
+        hint = f"; the nearest is {near[0]}.{tree.attr}" if near else ""
+        return f", or a name after {' or '.join(f'{one}.' for one in named)}{hint}" if named else ""
 
     def name(self, tree: ast.AST, name: str) -> Node:
         if name in self.bound:
