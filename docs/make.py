@@ -12,13 +12,16 @@ A test compares what these functions give with what is in the folder.
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from faultspace.proofs.adversary.results import SWEPT, AttackRecord, stored
 from faultspace.proofs.evidence.attacks import Aim
 from faultspace.proofs.hypotheses import ablations
-from faultspace.proofs.quantities.registry import Kind, quantities
+from faultspace.proofs.quantities.choices import OF_A_CHOICE
+from faultspace.proofs.quantities.pairs import OF_ONE_A_AND_C
+from faultspace.proofs.quantities.records import OF_A_RECORD
+from faultspace.proofs.quantities.registry import Kind, Quantity, quantities
 from faultspace.proofs.verdict.ledger import Claim, expected_without, load
 from faultspace.proofs.verdict.picture import Line, draw
 from faultspace.proofs.verdict.verdicts import Verdict, of_readings
@@ -105,16 +108,31 @@ def nearest(record: AttackRecord) -> str:
 
 
 def quantities_table() -> list[str]:
-    """Return the table of your-claims.md, a row a quantity."""
+    """Return the tables of your-claims.md, a row a quantity: of a system, then of a pair, a choice, a record."""
+    return [
+        *_quantities_table(quantities()),
+        *("", "Of a pair, beside those of `first` and `second` (`n` where both have the same A and C):", ""),
+        *_quantities_table(OF_ONE_A_AND_C),
+        *("", "Of a choice, beside those of the system and of `chosen`, and the matrix `P`:", ""),
+        *_quantities_table(OF_A_CHOICE),
+        *("", "Of a record, beside those of the system and of `inputs`, and the matrices `B`, `D`, `u` (N x nu) and `x0`:", ""),
+        *_quantities_table(OF_A_RECORD),
+    ]
+
+
+def _quantities_table(listed: Mapping[str, Quantity]) -> list[str]:
     rows = ["| name | what it is | meaning | borne by certificates |", "|---|---|---|---|"]
-    for name, one in sorted(quantities().items(), key=lambda item: (item[1].windowed, list(Kind).index(item[1].kind), item[0])):
-        borne = "no: computed" if one.certificates is None else "where true" if name == "stable" else "read off" if name in "nmp" else "yes"
+    for name, one in sorted(listed.items(), key=lambda item: (item[1].windowed, list(Kind).index(item[1].kind), item[0])):
+        borne = (
+            "no: computed" if one.certificates is None else "where true" if name == "stable" else "read off" if name in READ_OFF else "yes"
+        )
         meaning = one.meaning.replace("|", r"\|")
         kind = "a function of s" if one.windowed else str(one.kind)
         rows.append(f"| `{name}{'(s)' if one.windowed else ''}` | {kind}{', over Q' if one.only_over_Q else ''} | {meaning} | {borne} |")
     return rows
 
 
+READ_OFF = ("n", "m", "p", "k", "N", "nu")
 TABLES: dict[str, Callable[[], list[str]]] = {
     "adversary.md": attacks_table,
     "claims.md": claims_table,

@@ -1,4 +1,4 @@
-"""`faultspace claim`: claims of your own, decided; or, with --explain, what each part of them is on a system.
+"""`faultspace claim`: claims of your own, decided; or, with --explain, what each part of them is on a system, or a pair.
 
 run          the command's body
 sharpen      its body with --sharpen
@@ -16,20 +16,22 @@ from ..base.messages import say
 from ..base.progress import evenly, working
 from ..base.sheets import NAME_WIDTH, line
 from ..proofs.brought.answers import ClaimAnswers
+from ..proofs.brought.case_files import is_choice, is_pair, is_record, read_case
 from ..proofs.brought.claim_files import read_claims
 from ..proofs.brought.claiming import MOST, decide_claims, explain
 from ..proofs.brought.claims import Answered, Claim, nearest
+from ..proofs.quantities.cases import case_json
 from ..proofs.trust.structure_certificates import sha256
 from .conjecturing import run_sharpen
 from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, NOT_AS_EXPECTED
-from .reading_files import prepare_folder, read_system, read_text, write_json
+from .reading_files import prepare_folder, read_json, read_text, system_in, write_json
 
 STYLES = {Answered.REFUTED: "red", Answered.NOT_REFUTED: "green", Answered.VACUOUS: "yellow"}
 
 
 def run(name: str, *, only: list[str], ablation: bool, most: int | None, jobs: int, on: str | None, out: Path | None, as_json: bool) -> int:
-    """Decide the claims of a file, or explain them on the system `on`. The exit code is 1 where a verdict is not the expected one."""
+    """Decide the claims of a file, or explain them on what is in `on`. The exit code is 1 where a verdict is not the expected one."""
     with in_file(name):
         claims = _chosen(read_claims(read_text(name)), only, "--claim")
     if on is not None:
@@ -77,15 +79,19 @@ def _print(console: Console, found: ClaimAnswers) -> None:
 
 
 def _explain(claims: list[Claim], on: str, *, as_json: bool) -> int:
-    system = read_system(on)
-    told = {one.id: list(explain(one, system)) for one in claims}
+    document = read_json(on)
+    told = {}
+    with in_file(on):
+        case = read_case(document) if any(one(document) for one in (is_pair, is_choice, is_record)) else system_in(document).residual
+        for one in claims:
+            told[one.id] = list(explain(one, case))
     if as_json:
         rows = {id: [{"level": level, "text": text, "value": value} for level, text, value in parts] for id, parts in told.items()}
-        print_json({"system": system.residual.to_json(), "explained": rows})
+        print_json(case_json(case) | {"explained": rows})
         return ANSWERED
     console = answers()
     for id, parts in told.items():
-        paragraph(console, Text.assemble((id, "bold"), f"  on {system.residual}"))
+        paragraph(console, Text.assemble((id, "bold"), f"  on {case}"))
         for level, text, value in parts:
             paragraph(console, value, f"{'  ' * (level + 1)}{text} = ")
         console.print()

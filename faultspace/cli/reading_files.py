@@ -44,16 +44,21 @@ def read_system(name: str, *, floats_exactly: bool = False) -> System:
     """Read the system in a file; with `floats_exactly` its floats are the dyadic rationals that they are. Raises InvalidInput."""
     document = read_json(name, number=_dyadic if floats_exactly else float)
     with in_file(name):
-        if isinstance(document, dict) and document.get("format") == MODEL_FORMAT:
-            if not floats_exactly:
-                raise InvalidInput(f"got a model in floats ({MODEL_FORMAT}), expected an exact system; {_ADVICE}")
-            document = _system_of_model(document)
-        if isinstance(document, dict) and "u_filter" in document:
-            raise InvalidInput("got an experiment (it has u_filter), expected a system; `faultspace limit` takes experiments")
-        try:
-            return system_of(document)
-        except InvalidInput as error:
-            raise InvalidInput(str(error).replace(_HINT, _ADVICE)) from None
+        return system_in(document, floats_exactly=floats_exactly)
+
+
+def system_in(document: Any, *, floats_exactly: bool = False) -> System:
+    """Return the system that a document of a file holds. Raises InvalidInput, with what to try for models and experiments."""
+    if isinstance(document, dict) and document.get("format") == MODEL_FORMAT:
+        if not floats_exactly:
+            raise InvalidInput(f"got a model in floats ({MODEL_FORMAT}), expected an exact system; {_ADVICE}")
+        document = _system_of_model(document)
+    if isinstance(document, dict) and "u_filter" in document:
+        raise InvalidInput("got an experiment (it has u_filter), expected a system; `faultspace limit` takes experiments")
+    try:
+        return system_of(document)
+    except InvalidInput as error:
+        raise InvalidInput(str(error).replace(_HINT, _ADVICE)) from None
 
 
 def read_experiment(name: str, *, floats_exactly: bool = False) -> Experiment:

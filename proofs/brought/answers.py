@@ -9,12 +9,13 @@ ClaimAnswers      the verdicts on a file; what `fs.claim` returns
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import isinf
 from typing import Any
 
 from ...base.sheets import Shown, counted
 from ...exact.system.systems import ResidualSystem
+from ..quantities.cases import Case, case_json
 from ..trust.structure_certificates import Certificate, sha256
 from .claims import Answered
 
@@ -26,11 +27,18 @@ class Counterexample:
     `smallest` tells whether it is the first of the box; else it was found outside, and made smaller as far as single steps led.
     """
 
-    system: ResidualSystem
+    case: Case
     quantities: Mapping[str, Any]
     certificates: tuple[Certificate, ...]
     computed: tuple[str, ...]
     smallest: bool
+
+    @property
+    def system(self) -> ResidualSystem:
+        """This is the system, where the claim is about one. Raises TypeError where it is about something else: then `case` has it."""
+        if not isinstance(self.case, ResidualSystem):
+            raise TypeError(f"got a counterexample that is no system, expected one; .case is {self.case}")
+        return self.case
 
     @property
     def words(self) -> Iterator[tuple[str, str]]:
@@ -40,9 +48,8 @@ class Counterexample:
 
     def to_json(self) -> dict[str, Any]:
         """The result is `smallest` of the JSON answer; inf is written as null."""
-        sizes = {"n": self.system.n, "m": self.system.m, "p": self.system.p}
         values = {name: _json(value) for name, value in self.quantities.items()}
-        return {"system": self.system.to_json(), **sizes, "quantities": values, "computed": list(self.computed), "in_box": self.smallest}
+        return {**case_json(self.case), "quantities": values, "computed": list(self.computed), "in_box": self.smallest}
 
 
 @dataclass(frozen=True)
@@ -61,12 +68,15 @@ class Tried:
     corpus_met: int
     adversary: int
     adversary_met: int
+    of: str = field(default="systems", kw_only=True)
 
     @property
     def words(self) -> str:
         """This says it in a sentence."""
         how_far = "all" if self.exhausted else "the first"
-        here = f"{how_far} {self.systems} systems with {self.box} (by {self.looked_at} that stand for them), {self.met} meet the hypotheses"
+        here = (
+            f"{how_far} {self.systems} {self.of} with {self.box} (by {self.looked_at} that stand for them), {self.met} meet the hypotheses"
+        )
         others = (
             f"{self.corpus} of the corpus, {self.corpus_met} meet them",
             f"{self.adversary} of the adversary's families, {self.adversary_met} meet them",
@@ -76,14 +86,14 @@ class Tried:
 
 @dataclass(frozen=True)
 class Dropped:
-    """The verdict on the claim without the hypothesis `label`, with the system that refutes it; `undefined` says why there is none.
+    """The verdict on the claim without the hypothesis `label`, with what refutes it; `undefined` says why there is none.
 
     `informs` is False where the claim is refuted with the hypothesis, too.
     """
 
     label: str
     verdict: Answered | None
-    system: ResidualSystem | None
+    case: Case | None
     undefined: str = ""
     informs: bool = True
 
@@ -94,7 +104,7 @@ class Dropped:
             case None:
                 return f"the conclusion has no value without it: {self.undefined}"
             case Answered.REFUTED:
-                return f"needed: without it {self.system} refutes the claim" if self.informs else "the claim is refuted with it, too"
+                return f"needed: without it {self.case} refutes the claim" if self.informs else "the claim is refuted with it, too"
             case Answered.VACUOUS:
                 return "without it nothing meets the others either"
         return "not shown to be needed: nothing that was tried refutes the claim without it"
@@ -104,10 +114,11 @@ class Dropped:
 class ClaimAnswer(Shown):
     """The verdict on a claim over one field, with the system that refutes it and what was tried: an entry of ClaimAnswers.
 
-    `verdict` is "REFUTED", "NOT REFUTED" or "VACUOUS". `counterexample` is None, or has the `system`, the dict `quantities` of what the
-    claim reads of it, and `certificates`; `tried` has the number of systems that were gone through and of those that meet the hypotheses;
-    `dropped` is what becomes of the claim without each hypothesis, None where that was not asked; `expected` is the verdict that was
-    expected, None where none was. Source: [F75], [VD79] for what is asked of every window. Raises nothing by itself.
+    `verdict` is "REFUTED", "NOT REFUTED" or "VACUOUS". `counterexample` is None, or has the `system` (the `case`, where the claim is about
+    two), the dict `quantities` of what the claim reads of it, and `certificates`; `tried` has the number of systems that were gone through
+    and of those that meet the hypotheses; `dropped` is what becomes of the claim without each hypothesis, None where that was not asked;
+    `expected` is the verdict that was expected, None where none was. Source: [F75], [VD79] for what is asked of every window. Raises
+    nothing by itself.
 
     >>> import faultspace as fs
     >>> found = fs.claim("finite_zeros == 0", hypotheses=["minimal"], box={"total": 3}).answers[0]
@@ -149,10 +160,10 @@ class ClaimAnswer(Shown):
             yield "" if k else "hypotheses", text
         yield "conclusion", self.conclusion
         if self.verdict == Answered.VACUOUS:
-            yield "vacuous", "no system that was tried meets the hypotheses"
+            yield "vacuous", "nothing that was tried meets the hypotheses"
         if (found := self.counterexample) is not None:
             kind = "smallest counterexample" if found.smallest else "counterexample outside the box"
-            yield kind, str(found.system)
+            yield kind, str(found.case)
             for name, value in found.words:
                 yield f"  {name}", value
             yield "certificates", f"{counted(len(found.certificates), 'certificate')}, accepted by the checker"
@@ -175,7 +186,7 @@ class ClaimAnswer(Shown):
             {
                 "dropped": one.label,
                 "verdict": None if one.verdict is None else str(one.verdict),
-                "system": None if one.system is None else one.system.to_json(),
+                "system": None if one.case is None else one.case.to_json(),
             }
             for one in self.dropped or ()
         ]

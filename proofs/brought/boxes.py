@@ -23,14 +23,17 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import permutations, product
 from math import lcm
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..language.vocabularies import SYSTEM
 from ..quantities.batches import Batch
 from ..quantities.elimination import Integers
 
 AT_ONCE = 60_000
+Sizes = tuple[int, ...]
 LARGEST_TABLE = 2 * 10**6  # rows of some fourteen numbers of eight bytes: a few hundred megabytes while they are sorted out
 
 
@@ -51,16 +54,31 @@ class Box:
         over = "" if self.prime is None else f" modulo {self.prime}"
         return f"{ranges}, n + m + p <= {self.total}, entries in {{{listed}}}{over}"
 
-    def sizes(self) -> list[tuple[int, int, int]]:
+    @property
+    def about(self) -> str:
+        """What the cases of the box are."""
+        return SYSTEM
+
+    @property
+    def noun(self) -> str:
+        """What they are called."""
+        return "systems"
+
+    def sizes(self) -> list[Sizes]:
         """Return the (n, m, p) of the box in order."""
         n, m, p = (range(low, high + 1) for low, high in (self.n, self.m, self.p))
         found = product(n, m, p)
         return sorted((one for one in found if sum(one) <= self.total), key=lambda one: (sum(one), *one))
 
-    def count(self, n: int, m: int, p: int) -> int:
+    def count(self, *sizes: int) -> int:
         """Return how many systems there are of these sizes."""
+        n, m, p = sizes
         found: int = len(self.entries) ** ((n + p) * (n + m))
         return found
+
+    def stretches(self, sizes: Sizes, *, reduced: bool) -> Iterator[Stretch]:
+        """Yield all systems of these sizes in order; where `reduced`, one of each orbit alone. Raises OverflowError for too many."""
+        return stretches(self, sizes, reduced=reduced)
 
     @property
     def signed(self) -> bool:
@@ -70,9 +88,9 @@ class Box:
 
 @dataclass(frozen=True)
 class Stretch:
-    """Some systems of a box: `batch`, with the place in the order (first A, then the rest) and the size of the orbit of each."""
+    """Some cases of a box: `batch`, with the place of each in the order, (first A, then the rest), and the size of its orbit."""
 
-    batch: Batch
+    batch: Any
     places: NDArray[np.int64]
     weights: NDArray[np.int64]
 
@@ -82,41 +100,52 @@ def height(x: Fraction) -> int:
     return max(abs(x.numerator), x.denominator)
 
 
-def stretches(box: Box, sizes: tuple[int, int, int], *, reduced: bool) -> Iterator[Stretch]:
+def stretches(box: Box, sizes: tuple[int, ...], *, reduced: bool) -> Iterator[Stretch]:
     """Yield all systems of these sizes in order; where `reduced`, the first of each orbit alone.
 
     Raises OverflowError where there are more than 2 10^6 matrices A, or more triples (F, C, G), of these sizes: they do not fit a table.
     """
     for level in sorted({height(x) for x in box.entries}):
-        entries = sorted(x for x in box.entries if height(x) <= level)
-        yield from _level(box, sizes, entries, level, reduced)
+        entries = [x for x in box.entries if height(x) <= level]
+        high = np.array([height(x) == level for x in entries])
+        yield from systems_in_order(box, sizes, entries, high, changes(box, sizes, reduced=reduced))
 
 
-def _level(box: Box, sizes: tuple[int, int, int], entries: list[Fraction], level: int, reduced: bool) -> Iterator[Stretch]:
+def changes(box: Box, sizes: tuple[int, ...], *, reduced: bool) -> tuple[list[Integers], ...]:
+    """Return what renumbers states, faults and outputs and changes their signs, or nothing but what leaves them as they are."""
+    signed = box.signed and box.prime != 2
+    return tuple(_changes(k, signed) if reduced else [np.eye(k, dtype=np.int64)] for k in sizes)
+
+
+def systems_in_order(
+    box: Box, sizes: tuple[int, ...], entries: list[Fraction], high: NDArray[np.bool_], group: tuple[list[Integers], ...]
+) -> Iterator[Stretch]:
+    """Yield the systems with these entries, of which at least one is `high`, in order; the first of each orbit of the group alone.
+
+    The group has the changes of states, of faults and of outputs. Raises OverflowError as `stretches` does.
+    """
     n, m, p = sizes
     base = len(entries)
     lengths = n * n, n * m + p * n + p * m
     if base ** max(lengths) > LARGEST_TABLE:
         raise OverflowError
-    high = np.array([height(x) == level for x in entries])
     scale = lcm(*(x.denominator for x in entries))
     values = np.array([int(x * scale) for x in entries], dtype=np.int64)
-    signed, over_two = box.signed, box.prime == 2
-    states = _changes(n, signed and not over_two) if reduced else [np.eye(n, dtype=np.int64)]
-    states = states[: len(states) // 2] if reduced and signed and not over_two and n else states  # T and -T do the same to A
-    sides = [_changes(k, signed and not over_two) if reduced else [np.eye(k, dtype=np.int64)] for k in (p, m)]
-    every_A, numbers, stabilizers = _first_states(_digits(base, lengths[0]), states, n, base)
-    rest = _digits(base, lengths[1])
+    states, faults, outputs = group
+    both = all((one[-1] == -one[0]).all() for one in group)
+    states = states[: len(states) // 2] if both and n else states  # what -T does, T does with the negatives of outputs and faults
+    every_A, numbers, stabilizers = _first_states(digits_of(base, lengths[0]), states, n, base)
+    rest = digits_of(base, lengths[1])
     triples: dict[bytes, tuple[Integers, Integers, Integers]] = {}
 
     def of(stabilizer: NDArray[np.bool_]) -> tuple[Integers, Integers, Integers]:
         name = stabilizer.tobytes()
         if name not in triples:
             kept = [change for change, keeps in zip(states, stabilizer, strict=True) if keeps]
-            triples[name] = _first_rests(rest, kept, sides, sizes, base)
+            triples[name] = _first_rests(rest, kept, (outputs, faults), (n, m, p), base)
         return triples[name]
 
-    group = len(states) * len(sides[0]) * len(sides[1])
+    whole_group = len(states) * len(outputs) * len(faults)
     for chosen in _portions(every_A, stabilizers, lambda one: len(of(one)[0])):
         digits, places, weights = [], [], []
         for i in chosen:
@@ -125,7 +154,7 @@ def _level(box: Box, sizes: tuple[int, int, int], entries: list[Fraction], level
             keep = np.ones(len(found), dtype=bool) if high.all() else high[_places(whole, base)].any(axis=1)
             digits.append(whole[keep])
             places.append(numbers[i] * base ** lengths[1] + at[keep])
-            weights.append(group // fixed[keep])
+            weights.append(whole_group // fixed[keep])
         table = values[_places(np.concatenate(digits), base)]
         if len(table):
             parts = np.split(table, np.cumsum([n * n, n * m, p * n]), axis=1)
@@ -141,12 +170,10 @@ class Share:
     looked_at: int = 0
     whole: bool = True
 
-    def stretches(
-        self, box: Box, sizes: tuple[int, int, int], left: int, mine: int, of: int, *, reduced: bool
-    ) -> Iterator[tuple[int, Stretch]]:
+    def stretches(self, box: Box, sizes: Sizes, left: int, mine: int, of: int, *, reduced: bool) -> Iterator[tuple[int, Stretch]]:
         """Yield every `of`th stretch with its number, from number `mine` on, until `left` systems are counted."""
         try:
-            for number, stretch in enumerate(stretches(box, sizes, reduced=reduced)):
+            for number, stretch in enumerate(box.stretches(sizes, reduced=reduced)):
                 if number % of != mine:
                     continue
                 if self.systems >= left:
@@ -173,7 +200,7 @@ def _portions(every: Integers, stabilizers: NDArray[np.bool_], size: Callable[[N
         yield portion
 
 
-def _digits(base: int, length: int) -> Integers:
+def digits_of(base: int, length: int) -> Integers:
     """Return all vectors of odd or even numbers from 1 - base to base - 1, which are twice the digits less their mean, in order."""
     numbers = np.arange(base**length, dtype=np.int64)
     columns = [2 * (numbers // base**k % base) - (base - 1) for k in reversed(range(length))]
@@ -210,7 +237,7 @@ def _first_states(digits: Integers, changes: list[Integers], n: int, base: int) 
 
 
 def _first_rests(
-    digits: Integers, kept: list[Integers], sides: list[list[Integers]], sizes: tuple[int, int, int], base: int
+    digits: Integers, kept: list[Integers], sides: tuple[list[Integers], list[Integers]], sizes: tuple[int, int, int], base: int
 ) -> tuple[Integers, Integers, Integers]:
     """Return the (F, C, G) that come first, with their numbers, and the number of changes that leave each as it is."""
     n, m, p = sizes
@@ -218,10 +245,21 @@ def _first_rests(
     F, C, G = (
         part.reshape(shape) for part, shape in zip(np.split(powers, np.cumsum([n * m, p * n])), ((n, m), (p, n), (p, m)), strict=True)
     )
+    return first_of_orbits(
+        digits,
+        [
+            powers - np.concatenate([(T.T @ F @ V).ravel(), (U.T @ C @ T).ravel(), (U.T @ G @ V).ravel()])
+            for T, U, V in product(kept, *sides)
+        ],
+    )
+
+
+def first_of_orbits(digits: Integers, earlier: list[Integers]) -> tuple[Integers, Integers, Integers]:
+    """Return the rows of digits that come first in their orbits, with their numbers, and how many changes leave each as it is.
+
+    The product of a row with an entry of `earlier` is its number less that of what a change makes of it.
+    """
     numbers = np.arange(len(digits), dtype=np.int64)
-    earlier = [
-        powers - np.concatenate([(T.T @ F @ V).ravel(), (U.T @ C @ T).ravel(), (U.T @ G @ V).ravel()]) for T, U, V in product(kept, *sides)
-    ]
     for one in earlier:
         keep = digits @ one <= 0
         digits, numbers = digits[keep], numbers[keep]

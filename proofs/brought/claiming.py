@@ -13,11 +13,13 @@ from typing import Any
 from ...base.errors import InvalidInput, shorten
 from ...base.progress import Progress, silent
 from ...base.threads import one_thread
-from ...exact.system.systems import System, residual_of
-from ..language.evaluating import Asked, Exactly, evaluate, least_deciding
+from ...exact.system.systems import System
+from ..language.evaluating import Asked, Exactly, evaluate, exactly, least_deciding
 from ..language.nodes import Node, Undefined, variables
-from ..quantities.registry import Subject
+from ..language.vocabularies import SYSTEM
+from ..quantities.cases import Case
 from .answers import ClaimAnswers
+from .case_files import fitting
 from .claims import Claim, make_claim
 from .deciding import decide
 
@@ -32,6 +34,7 @@ def claim(
     hypotheses: Sequence[str | Predicate] = (),
     fields: Sequence[str] = ("Q",),
     box: Mapping[str, Any] | None = None,
+    about: str = SYSTEM,
     statement: str = "",
     source: str = "",
     ablation: bool = True,
@@ -42,10 +45,12 @@ def claim(
     """Decide a claim of your own about all systems x(k+1) = A x + F v, r = C x + G v: refuted by the smallest counterexample, or not.
 
     `conclusion` and `hypotheses` are expressions of the language of `docs/your-claims.md`, "delay_known <= n" say, or functions of Python
-    that take an object with the same words and return a bool: `lambda s: s.delay_known <= s.n`. `fields` lists "Q" and "GF(q)"; `box` has
-    "n", "m", "p" (first and last number of states, faults, outputs), "total" (the largest n + m + p) and "entries". With `ablation` the
-    claim is tried without each of its hypotheses, too. `most` bounds the number of systems of the box that are gone through, `jobs` is a
-    number of processes, and `on_progress` is called with (stage, done, total). Each quantity of a counterexample comes with certificates,
+    that take an object with the same words and return a bool: `lambda s: s.delay_known <= s.n`. With `about` "pair" or "pair with the same
+    (A, C)" it is about two systems: `lambda s: s.equal or s.first_difference <= s.first.n + 1`; with "choice" about a system and a P, with
+    "record" about a system and its data. `fields` lists "Q" and "GF(q)"; `box` has "n", "m", "p" (first and last number of states, faults,
+    outputs), "total" (the largest n + m + p) and "entries", and "k" of a choice, "nu" and "N" of a record. With `ablation` the claim is
+    tried without each of its hypotheses, too. `most` bounds the number of systems of the box that are gone through, `jobs` is a number of
+    processes, and `on_progress` is called with (stage, done, total). Each quantity of a counterexample comes with certificates,
     as far as the checker has a kind for it, and names what has none. Source: [F75], [VD79] for what is asked of every window.
 
     Raises InvalidInput for what is no expression, for an empty box, and where the claim has no value on a system, which it names.
@@ -55,7 +60,7 @@ def claim(
     >>> found.answers[0].verdict, found.answers[0].dropped[0].verdict
     (<Answered.NOT_REFUTED: 'NOT REFUTED'>, <Answered.REFUTED: 'REFUTED'>)
     """
-    given: dict[str, Any] = {"conclusion": conclusion, "hypotheses": list(hypotheses), "fields": list(fields)}
+    given: dict[str, Any] = {"about": about, "conclusion": conclusion, "hypotheses": list(hypotheses), "fields": list(fields)}
     given |= {"statement": statement, "source": source} | ({} if box is None else {"box": box})
     return decide_claims([make_claim("claim", given)], ablation=ablation, most=most, jobs=jobs, on_progress=on_progress or silent)
 
@@ -71,38 +76,41 @@ def decide_claims(
     return ClaimAnswers(tuple(answers))
 
 
-def explain(given: Claim, system: System) -> Iterator[tuple[int, str, str]]:
-    """Yield (level, text, value) for each part of the hypotheses and the conclusion that has a value of its own on the system."""
-    exactly = Exactly({"": Subject(residual_of(system))})
+def explain(given: Claim, case: System | Case) -> Iterator[tuple[int, str, str]]:
+    """Yield (level, text, value) for each part of the hypotheses and the conclusion that has a value of its own on a system, or a pair.
+
+    Raises InvalidInput where it is no case of what the claim is about.
+    """
+    knows = exactly(fitting(case.residual if isinstance(case, System) else case, given.about))
     for node in given.nodes:
-        yield from _explained(node, exactly, {}, 0)
+        yield from _explained(node, knows, {}, 0)
 
 
-def _explained(node: Node, exactly: Exactly, bound: dict[str, int], level: int) -> Iterator[tuple[int, str, str]]:
+def _explained(node: Node, knows: Exactly, bound: dict[str, int], level: int) -> Iterator[tuple[int, str, str]]:
     if node.op == "constant" or node.op == "variable":
         return
     if node.op in ("matrix", "transpose", "hstack", "vstack", "I", "zeros", "power") or node.op.startswith("matrix "):
         return
     try:
-        value = str(evaluate(node, exactly, bound))
+        value = str(evaluate(node, knows, bound))
     except Undefined as error:
         value = f"no value: {error}"
     here = "".join(f", {name} = {bound[name]}" for name in sorted(variables(node)))
     yield level, node.text + here, value
     if node.op in ("all", "any", "least") and len(node.args) >= 2:
-        yield from _explained_window(node, exactly, bound, level)
+        yield from _explained_window(node, knows, bound, level)
         return
     for part in node.args:
-        yield from _explained(part, exactly, bound, level + 1)
+        yield from _explained(part, knows, bound, level + 1)
 
 
-def _explained_window(node: Node, exactly: Exactly, bound: dict[str, int], level: int) -> Iterator[tuple[int, str, str]]:
+def _explained_window(node: Node, knows: Exactly, bound: dict[str, int], level: int) -> Iterator[tuple[int, str, str]]:
     """Explain the body at the window that decides: the first at which an `all` fails, or at which an `any` or `least` holds."""
     for part in node.args[:-1]:
-        yield from _explained(part, exactly, bound, level + 1)
+        yield from _explained(part, knows, bound, level + 1)
     try:
-        found = least_deciding(node, exactly, bound)
+        found = least_deciding(node, knows, bound)
     except Undefined:
         return
     if found is not None:
-        yield from _explained(node.args[-1], exactly, {**bound, node.value: found}, level + 1)
+        yield from _explained(node.args[-1], knows, {**bound, node.value: found}, level + 1)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from enum import StrEnum
 from fractions import Fraction
@@ -20,14 +20,26 @@ from typing import Any
 from flint import fmpz
 
 from ...base.errors import InvalidInput, shorten
-from ..language.grammar import ABOUT_A_SYSTEM, read
+from ..language.grammar import read
 from ..language.nodes import Node, reads, walk
+from ..language.vocabularies import ABOUT_A_SYSTEM, CHOICE, ONE_A_AND_C, PAIR, RECORD, SYSTEM, VOCABULARIES, Vocabulary
 from ..quantities.registry import Kind, quantities
 from .boxes import Box
+from .choice_boxes import ChoiceBox
+from .pair_boxes import PairBox
+from .record_boxes import RecordBox
 
 KEYS = ("statement", "source", "about", "hypotheses", "conclusion", "fields", "box", "expected")
 BOX_KEYS = ("n", "m", "p", "total", "entries")
-ABOUT = ("system", "pair", "pair with the same (A, C)", "choice", "record")
+OWN_KEYS: dict[str, tuple[str, ...]] = {CHOICE: ("k",), RECORD: ("nu", "N")}
+_TWO = PairBox(n=(1, 2), m=(1, 2), p=(1, 2), total=4)
+USUAL: dict[str, Box] = {
+    SYSTEM: Box(),
+    PAIR: _TWO,
+    ONE_A_AND_C: replace(_TWO, one_A_and_C=True),
+    CHOICE: ChoiceBox(n=(1, 2), total=4),
+    RECORD: RecordBox(n=(1, 2), m=(0, 0), p=(1, 1), total=3),
+}  # the boxes where none is stated
 LARGEST_SIZE, LARGEST_TOTAL, LARGEST_PRIME, MOST_ENTRIES = 8, 16, 97, 32
 LONGEST_TEXT, MOST_HYPOTHESES, MOST_FIELDS = 2000, 16, 8
 
@@ -55,6 +67,7 @@ class Claim:
     id: str
     statement: str
     source: str
+    about: str
     hypotheses: tuple[Hypothesis, ...]
     conclusion: Node
     boxes: Mapping[str, Box]
@@ -84,22 +97,22 @@ def make_claim(id: str, given: Mapping[str, Any]) -> Claim:
             raise InvalidInput(f"{key}: got an unknown key; {nearest(str(key), KEYS)}")
     if "conclusion" not in given:
         raise InvalidInput("conclusion: got none, expected an expression")
-    _about(given.get("about", "system"))
-    hypotheses = tuple(_hypotheses(given.get("hypotheses", [])))
-    conclusion = expression(given["conclusion"], "conclusion")
+    about = _about(given.get("about", SYSTEM))
+    hypotheses = tuple(_hypotheses(given.get("hypotheses", []), VOCABULARIES[about]))
+    conclusion = expression(given["conclusion"], "conclusion", vocabulary=VOCABULARIES[about])
     primes = _fields(given.get("fields", ["Q"]))
     box = given.get("box", {})
     if not isinstance(box, Mapping):
         raise InvalidInput(f"box: got {shorten(box)}, expected a table such as {{n = [1, 3], total = 5}}")
-    boxes = {field_name(prime): make_box(box, prime) for prime in primes}
+    boxes = {field_name(prime): make_box(box, prime, about) for prime in primes}
     nodes = (*(one.that for one in hypotheses), conclusion)
     if any(prime is not None for prime in primes):
         _refuse_the_circle(nodes)
     expected = _expected(given["expected"], tuple(boxes)) if "expected" in given else {}
-    return Claim(id, _text(given, "statement"), _text(given, "source"), hypotheses, conclusion, boxes, expected)
+    return Claim(id, _text(given, "statement"), _text(given, "source"), about, hypotheses, conclusion, boxes, expected)
 
 
-def expression(given: object, where: str, kind: Kind = Kind.WORD) -> Node:
+def expression(given: object, where: str, kind: Kind = Kind.WORD, vocabulary: Vocabulary = ABOUT_A_SYSTEM) -> Node:
     """Return the expression of a text, or what a Python predicate makes one. Raises InvalidInput that begins with `where`."""
     if callable(given):
         name = getattr(given, "__name__", "a predicate")
@@ -107,50 +120,51 @@ def expression(given: object, where: str, kind: Kind = Kind.WORD) -> Node:
     if not isinstance(given, str):
         raise InvalidInput(f"{where}: got {shorten(given)}, expected an expression as a string")
     try:
-        return read(given, kind, ABOUT_A_SYSTEM)
+        return read(given, kind, vocabulary)
     except InvalidInput as error:
         raise InvalidInput(f"{where}: {error}") from None
 
 
-def make_box(given: Mapping[str, Any], prime: int | None) -> Box:
+def make_box(given: Mapping[str, Any], prime: int | None, about: str = SYSTEM) -> Box:
     """Return the box with these bounds over Q or GF(prime). Raises InvalidInput that begins with `box`."""
+    plain = USUAL[about]
+    own = OWN_KEYS.get(about, ())
+    known = (*BOX_KEYS, *own)
     for key in given:
-        if key not in BOX_KEYS:
-            raise InvalidInput(f"box.{key}: got an unknown key; {nearest(str(key), BOX_KEYS)}")
-    plain = Box()
-    ranges = {name: _range(given[name], name) if name in given else getattr(plain, name) for name in ("n", "m", "p")}
+        if key not in known:
+            raise InvalidInput(f"box.{key}: got an unknown key; {nearest(str(key), known)}")
+    ranges = {name: _range(given[name], name) if name in given else getattr(plain, name) for name in ("n", "m", "p", *own)}
     total = given.get("total", plain.total)
     if type(total) is not int or not 0 <= total <= LARGEST_TOTAL:
         raise InvalidInput(f"box.total: got {shorten(total)}, expected an integer from 0 to {LARGEST_TOTAL}")
     entries = _entries(given["entries"], prime) if "entries" in given else _usual(prime)
-    box = Box(**ranges, total=total, entries=entries, prime=prime)
+    box = replace(plain, **ranges, total=total, entries=entries, prime=prime)
     if not box.sizes():
-        least = sum(low for low, _ in ranges.values())
+        least = sum(ranges[name][0] for name in ("n", "m", "p"))
         raise InvalidInput(f"box: got an empty box, n + m + p is at least {least} and at most total = {total}")
     return box
 
 
-def _about(about: object) -> None:
-    if about == "system":
-        return
-    if about in ABOUT:
-        raise InvalidInput(f"about: got {shorten(about)}, which this version does not decide yet; expected system")
-    raise InvalidInput(f"about: got {shorten(about)}, expected one of {', '.join(ABOUT)}")
+def _about(about: object) -> str:
+    if isinstance(about, str) and about in USUAL:
+        return about
+    known = tuple(USUAL)
+    raise InvalidInput(f"about: got {shorten(about)}; {nearest(about, known) if isinstance(about, str) else f'expected one of {known}'}")
 
 
-def _hypotheses(given: object) -> list[Hypothesis]:
+def _hypotheses(given: object, vocabulary: Vocabulary) -> list[Hypothesis]:
     if not isinstance(given, (list, tuple)) or len(given) > MOST_HYPOTHESES:
         raise InvalidInput(f"hypotheses: got {shorten(given)}, expected a list of at most {MOST_HYPOTHESES} expressions")
     found = []
     for k, one in enumerate(given):
         where = f"hypotheses[{k}]"
         if not isinstance(one, Mapping):
-            that = expression(one, where)
+            that = expression(one, where, vocabulary=vocabulary)
             found.append(Hypothesis(that, that.text))
             continue
         if not set(one) <= {"that", "label"} or "that" not in one or not isinstance(one.get("label", ""), str):
             raise InvalidInput(f'{where}: got {shorten(dict(one))}, expected {{that = "...", label = "..."}}')
-        that = expression(one["that"], where)
+        that = expression(one["that"], where, vocabulary=vocabulary)
         found.append(Hypothesis(that, one.get("label") or that.text))
     return found
 

@@ -24,6 +24,7 @@ from ..language.evaluating import Asked
 from ..language.grammar import OF_A_MATRIX
 from ..language.linear import linear, words
 from ..language.nodes import Node
+from ..language.vocabularies import SYSTEM
 from ..quantities.elimination import Integers
 from ..quantities.registry import Kind, quantities
 from .bounds import ABOVE, BELOW, Fit, Fitted, Form, Grammar, fit
@@ -120,6 +121,8 @@ def conjecture(
 
 def sharpen(claim: Claim, *, most: int = MOST, jobs: int = 1, progress: Progress = silent) -> list[Sharpened]:
     """Return the bounds in the place of the claim's over each of its fields. Raises InvalidInput where it is no bound on an integer."""
+    if claim.about != SYSTEM:
+        raise InvalidInput(f"claim.{claim.id}.about: got {claim.about}, expected system: bounds are sought for claims about systems alone")
     return [_sharpened(claim, field, most, jobs, progress) for field in claim.boxes]
 
 
@@ -273,7 +276,7 @@ def _systems(table: Table, attained: NDArray[np.bool_]) -> int:
 
 
 def _evidence(table: Table) -> Evidence:
-    counts = {name: getattr(table, name) for name in Evidence.__dataclass_fields__ if name not in ("box", "rows")}
+    counts = {name: getattr(table, name) for name in Evidence.__dataclass_fields__ if name not in ("box", "rows", "of")}
     return Evidence(box=str(table.box), rows=len(table.rows), **counts)
 
 

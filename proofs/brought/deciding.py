@@ -13,14 +13,16 @@ from ...base.errors import InvalidInput
 from ...base.progress import Progress
 from ...exact.algebra.matrices import Matrix
 from ...exact.system.systems import ResidualSystem
-from ..language.evaluating import Exactly, evaluate
+from ..language.evaluating import evaluate, exactly
 from ..language.nodes import Undefined
-from ..quantities.registry import Subject, quantities
+from ..quantities.cases import Case, size_of
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, Unprovable, accept, sha256
 from .answers import ClaimAnswer, Counterexample, Dropped, Tried
+from .boxes import Box
 from .claims import Answered, Claim
-from .known_systems import ADVERSARY, CORPUS, known_systems, smaller
+from .known_cases import known_cases, smaller
+from .known_systems import ADVERSARY, CORPUS
 from .trying import Found, Question, must_have_a_value, search
 
 
@@ -29,7 +31,7 @@ class _Known:
     """What the systems outside the box say to a question."""
 
     met: dict[str, int]
-    failing: ResidualSystem | None = None
+    failing: Case | None = None
     undefined: str = ""
 
 
@@ -51,7 +53,7 @@ def _over(claim: Claim, field: str, *, ablation: bool, most: int, jobs: int, pro
     if main.undefined is not None:
         raise must_have_a_value(main.undefined, f"claim.{claim.id}")
     progress(f"trying {claim.id} on known systems", 0, 0)
-    known = _on_known_systems(questions[0], box.prime) if main.failing is None else _Known({CORPUS: 0, ADVERSARY: 0})
+    known = _on_known_cases(questions[0], box) if main.failing is None else _Known({CORPUS: 0, ADVERSARY: 0})
     if known.undefined:
         raise InvalidInput(f"claim.{claim.id}: {known.undefined}")
     counterexample = None
@@ -61,7 +63,7 @@ def _over(claim: Claim, field: str, *, ablation: bool, most: int, jobs: int, pro
         counterexample = certified(claim, smaller(known.failing, lambda one: _fails(questions[0], one)), smallest=False)
     verdict = Answered.REFUTED if counterexample else _unrefuted(main, known)
     asked = main.failing is None and known.failing is None
-    listed = known_systems(box.prime) if main.failing is None else ()
+    listed = known_cases(box) if main.failing is None else ()
     counts = {origin: sum(1 for one in listed if one.origin == origin) for origin in (CORPUS, ADVERSARY)}
     tried = Tried(
         box=str(box),
@@ -73,12 +75,13 @@ def _over(claim: Claim, field: str, *, ablation: bool, most: int, jobs: int, pro
         corpus_met=known.met[CORPUS],
         adversary=counts[ADVERSARY],
         adversary_met=known.met[ADVERSARY],
+        of=box.noun,
     )
     dropped = None
     if ablation:
         labels = [one.label for one in claim.hypotheses]
         dropped = tuple(
-            _without(labels[k], question, found, box.prime, asked=asked)
+            _without(labels[k], question, found, box, asked=asked)
             for k, (question, found) in enumerate(zip(questions[1:], searched.found[1:], strict=True))
         )
     return ClaimAnswer(
@@ -97,34 +100,34 @@ def _over(claim: Claim, field: str, *, ablation: bool, most: int, jobs: int, pro
     )
 
 
-def certified(claim: Claim, system: ResidualSystem, *, smallest: bool) -> Counterexample:
+def certified(claim: Claim, case: Case, *, smallest: bool) -> Counterexample:
     """Return the counterexample with what the claim reads of it. Raises ArithmeticError where exact functions do not find that it is one.
 
     What was asked in deciding the hypotheses and the conclusion exactly is what the claim reads; each value comes with the certificates
     that bear it, where some do. Certificates about A', C', F', G' or about (A, C) alone say so.
     """
-    subject = Subject(system)
-    exactly = Exactly({"": subject})
-    if not all(evaluate(one.that, exactly) for one in claim.hypotheses) or evaluate(claim.conclusion, exactly):
-        raise ArithmeticError(f"two ways to find the quantities of {system} disagree")
+    knows = exactly(case)
+    if not all(evaluate(one.that, knows) for one in claim.hypotheses) or evaluate(claim.conclusion, knows):
+        raise ArithmeticError(f"two ways to find the quantities of {case} disagree")
     values: dict[str, object] = {}
     certificates: dict[str, Certificate] = {}
     computed = []
-    for (_, name, s), value in sorted(exactly.asked.items(), key=lambda one: one[0][2] or 0):  # windows ascending, after what has none
-        text = name if s is None else f"{name}({s})"
+    for (subject, name, s), value in sorted(knows.asked.items(), key=lambda one: one[0][2] or 0):  # windows ascending, after what has none
+        text = (f"{subject}." if subject else "") + (name if s is None else f"{name}({s})")
         values[text] = value
-        maker = quantities()[name].certificates
+        of, quantity = knows.found(subject, name)
+        maker = quantity.certificates
         try:
             if maker is None:
                 raise Unprovable(name)
-            made = maker(subject) if s is None else maker(subject, s)
+            made = maker(of) if s is None else maker(of, s)
         except Unprovable:
             computed.append(text)
             continue
         for one in made:
             accept(one)
             certificates[sha256(one)] = one
-    for text, (function, built, value) in exactly.matrices.items():
+    for text, (function, built, value) in knows.matrices.items():
         values[text] = value
         if function in ("rows", "columns"):
             continue
@@ -134,7 +137,7 @@ def certified(claim: Claim, system: ResidualSystem, *, smallest: bool) -> Counte
             continue
         accept(found)
         certificates[sha256(found)] = found
-    return Counterexample(system, values, tuple(certificates.values()), tuple(computed), smallest)
+    return Counterexample(case, values, tuple(certificates.values()), tuple(computed), smallest)
 
 
 def _of_a_matrix(function: str, built: Matrix, value: object) -> Certificate | None:
@@ -149,42 +152,37 @@ def _of_a_matrix(function: str, built: Matrix, value: object) -> Certificate | N
     return None
 
 
-def _fails(question: Question, system: ResidualSystem) -> bool:
+def _fails(question: Question, case: Case) -> bool:
     try:
-        exactly = Exactly({"": Subject(system)})
-        return all(evaluate(one, exactly) for one in question.hypotheses) and not evaluate(question.conclusion, exactly)
+        knows = exactly(case)
+        return all(evaluate(one, knows) for one in question.hypotheses) and not evaluate(question.conclusion, knows)
     except Undefined:
         return False
 
 
-def _on_known_systems(question: Question, prime: int | None) -> _Known:
+def _on_known_cases(question: Question, box: Box) -> _Known:
     """Return the first that fails, in the order of sizes, and how many meet the hypotheses."""
     found = _Known({CORPUS: 0, ADVERSARY: 0})
-    for one in sorted(known_systems(prime), key=lambda one: (_sizes(one.subject), one.origin)):
-        exactly = Exactly({"": one.subject})
+    for one in sorted(known_cases(box), key=lambda one: (size_of(one.case), one.origin)):
+        knows = exactly(one.case, one.subject)
         try:
-            if not all(evaluate(node, exactly) for node in question.hypotheses):
+            if not all(evaluate(node, knows) for node in question.hypotheses):
                 continue
             found.met[one.origin] += 1
-            failing = not evaluate(question.conclusion, exactly)
+            failing = not evaluate(question.conclusion, knows)
         except Undefined as error:
-            found.undefined = f"on {one.subject.system}, {error}"
+            found.undefined = f"on {one.case}, {error}"
             return found
         if failing and found.failing is None:
-            found.failing = one.subject.system
+            found.failing = one.case
     return found
-
-
-def _sizes(subject: Subject) -> tuple[int, ...]:
-    system = subject.system
-    return (system.n + system.m + system.p, system.n, system.m, system.p)
 
 
 def _unrefuted(main: Found, known: _Known) -> Answered:
     return Answered.NOT_REFUTED if main.met or sum(known.met.values()) else Answered.VACUOUS
 
 
-def _without(label: str, question: Question, found: Found, prime: int | None, *, asked: bool) -> Dropped:
+def _without(label: str, question: Question, found: Found, box: Box, *, asked: bool) -> Dropped:
     """Return what becomes of the claim without a hypothesis. Where it is refuted with it, `asked` is False, it is without it, too."""
     if not asked:
         return Dropped(label, Answered.REFUTED, found.failing, informs=False)
@@ -192,7 +190,7 @@ def _without(label: str, question: Question, found: Found, prime: int | None, *,
         return Dropped(label, Answered.REFUTED, found.failing)
     if found.undefined is not None:
         return Dropped(label, None, None, f"on {found.undefined.system}, {found.undefined.message}")
-    known = _on_known_systems(question, prime)
+    known = _on_known_cases(question, box)
     if known.undefined:
         return Dropped(label, None, None, known.undefined)
     if known.failing is not None:

@@ -1,7 +1,7 @@
-"""The systems outside the box that every claim is tried on, and how one of them that fails is made smaller.
+"""The systems outside the box that every claim about systems is tried on, and what single steps make of one of them.
 
     known_systems     those of the corpus, and systems of the families that the adversary attacks with, over a field
-    smaller           a system that still fails, with fewer states, faults, outputs and simpler entries, as far as single steps lead
+    steps             what single steps make of a system: a state, a fault, an output less, or a simpler entry
 
 The corpus is the one of `verify`: named systems that were each made to break something, and random ones of every structure. The adversary's
 families have a hidden state, an idle one, two faults that are one, a feedthrough of rank one, or every entry free; here their points are
@@ -11,7 +11,7 @@ small integers, drawn from a seed.
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -46,16 +46,7 @@ def known_systems(prime: int | None) -> tuple[KnownSystem, ...]:
     if prime is not None:
         corpus = [system for _, system in adversarial()] + list(islice(random_systems(field, RANDOM, seed=SEED), RANDOM))
     listed = [(CORPUS, one) for one in corpus] + [(ADVERSARY, one) for one in _drawn()]
-    return tuple(KnownSystem(origin, Subject(_over(field, one))) for origin, one in listed if _moves(field, one))
-
-
-def smaller(system: ResidualSystem, fails: Callable[[ResidualSystem], bool]) -> ResidualSystem:
-    """Return a system that fails and that no single step makes smaller: one row and column less, or one entry 0, 1, -1 or nearer to 0."""
-    while True:
-        found = next((one for one in _steps(system) if fails(one)), None)
-        if found is None:
-            return system
-        system = found
+    return tuple(KnownSystem(origin, Subject(over(field, one))) for origin, one in listed if _moves(field, one))
 
 
 def _drawn() -> Iterator[ResidualSystem]:
@@ -76,32 +67,58 @@ def _moves(field: Field, system: ResidualSystem) -> bool:
     )
 
 
-def _over(field: Field, system: ResidualSystem) -> ResidualSystem:
+def over(field: Field, system: ResidualSystem) -> ResidualSystem:
+    """Return a system with integer entries over the field."""
     if system.field == field:
         return system
     parts = ([[int(x) for x in row] for row in getattr(system, name).elements()] for name in "AFCG")
     return ResidualSystem.of(*parts, field=field, n=system.n, m=system.m, p=system.p)
 
 
-def _steps(system: ResidualSystem) -> Iterator[ResidualSystem]:
-    for k in range(system.n):
-        rest = [i for i in range(system.n) if i != k]
-        yield ResidualSystem(system.A.rows(rest).columns(rest), system.F.rows(rest), system.C.columns(rest), system.G)
-    for k in range(system.m):
-        rest = [j for j in range(system.m) if j != k]
-        yield ResidualSystem(system.A, system.F.columns(rest), system.C, system.G.columns(rest))
-    for k in range(system.p):
-        rest = [i for i in range(system.p) if i != k]
-        yield ResidualSystem(system.A, system.F, system.C.rows(rest), system.G.rows(rest))
+def steps(system: ResidualSystem) -> Iterator[ResidualSystem]:
+    """Yield the systems with one state, fault or output less, then those with one entry 0, 1, -1 or nearer to 0."""
+    for without, count in ((without_state, system.n), (without_fault, system.m), (without_output, system.p)):
+        for k in range(count):
+            yield without(system, k)
     for name in "AFCG":
-        matrix: Matrix = getattr(system, name)
-        table = matrix.elements()
-        for i, j in product(range(matrix.nrows), range(matrix.ncols)):
-            for value in _simpler(table[i][j], system.field):
-                changed = [[value if (a, b) == (i, j) else x for b, x in enumerate(row)] for a, row in enumerate(table)]
-                parts = {other: getattr(system, other) for other in "AFCG"}
-                parts[name] = Matrix.from_elements(system.field, matrix.nrows, matrix.ncols, changed)
-                yield ResidualSystem(**parts)
+        for matrix in simpler_matrices(getattr(system, name)):
+            yield with_matrix(system, name, matrix)
+
+
+def without_state(system: ResidualSystem, k: int) -> ResidualSystem:
+    """Return the system without its state k."""
+    rest = _others(system.n, k)
+    return ResidualSystem(system.A.rows(rest).columns(rest), system.F.rows(rest), system.C.columns(rest), system.G)
+
+
+def without_fault(system: ResidualSystem, k: int) -> ResidualSystem:
+    """Return the system without its fault k."""
+    rest = _others(system.m, k)
+    return ResidualSystem(system.A, system.F.columns(rest), system.C, system.G.columns(rest))
+
+
+def without_output(system: ResidualSystem, k: int) -> ResidualSystem:
+    """Return the system without its output k."""
+    rest = _others(system.p, k)
+    return ResidualSystem(system.A, system.F, system.C.rows(rest), system.G.rows(rest))
+
+
+def with_matrix(system: ResidualSystem, name: str, matrix: Matrix) -> ResidualSystem:
+    """Return the system with another A, F, C or G of the same shape."""
+    return ResidualSystem(**({other: getattr(system, other) for other in "AFCG"} | {name: matrix}))
+
+
+def simpler_matrices(matrix: Matrix) -> Iterator[Matrix]:
+    """Yield the matrices with one entry that is simpler."""
+    table = matrix.elements()
+    for i, j in product(range(matrix.nrows), range(matrix.ncols)):
+        for value in _simpler(table[i][j], matrix.field):
+            changed = [[value if (a, b) == (i, j) else x for b, x in enumerate(row)] for a, row in enumerate(table)]
+            yield Matrix.from_elements(matrix.field, matrix.nrows, matrix.ncols, changed)
+
+
+def _others(count: int, k: int) -> list[int]:
+    return [i for i in range(count) if i != k]
 
 
 def _simpler(x: object, field: Field) -> list[object]:

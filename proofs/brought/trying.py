@@ -19,11 +19,12 @@ import numpy as np
 from ...base.errors import InvalidInput
 from ...base.progress import Progress
 from ...base.workers import pool
-from ...exact.system.systems import ResidualSystem
 from ..language.by_batches import Table, UndefinedAt, true_of
 from ..language.invariance import invariant
 from ..language.nodes import Node
-from .boxes import Box, Share, Stretch
+from ..language.vocabularies import VOCABULARIES
+from ..quantities.cases import Case
+from .boxes import Box, Share, Sizes, Stretch
 
 WORTH_SHARING = 10**6
 
@@ -42,7 +43,7 @@ class Undefined:
     """The conclusion, or a hypothesis, has no value on a system."""
 
     message: str
-    system: ResidualSystem
+    system: Case
 
 
 @dataclass
@@ -50,7 +51,7 @@ class Found:
     """`met` counts the systems that meet the hypotheses, up to the one that fails; `failing` is that one."""
 
     met: int = 0
-    failing: ResidualSystem | None = None
+    failing: Case | None = None
     undefined: Undefined | None = None
 
     @property
@@ -74,14 +75,14 @@ class _Part(Share):
     """What one process found in its share of the systems of some sizes: of each question, place and system of the first that fails."""
 
     met: list[int] = field(default_factory=list)
-    first: list[tuple[tuple[int, int], ResidualSystem | Undefined] | None] = field(default_factory=list)
+    first: list[tuple[tuple[int, int], Case | Undefined] | None] = field(default_factory=list)
     tables: dict[Node, Table] = field(default_factory=dict)
 
 
 def search(box: Box, questions: Sequence[Question], *, most: int, jobs: int, progress: Progress) -> Searched:
     """Go through the box until every question has failed, all systems are tried, or `most` of them are."""
     result = Searched([Found() for _ in questions])
-    reduced = invariant(*{node for one in questions for node in (*one.hypotheses, one.conclusion)})
+    reduced = invariant(*{node for one in questions for node in (*one.hypotheses, one.conclusion)}, vocabulary=VOCABULARIES[box.about])
     sizes = box.sizes()
     total = sum(box.count(*one) for one in sizes)
     shown = max(1, total // 1000)
@@ -111,7 +112,7 @@ def search(box: Box, questions: Sequence[Question], *, most: int, jobs: int, pro
     return result
 
 
-def _share(box: Box, sizes: tuple[int, int, int], asked: list[Question], left: int, jobs: int, *, reduced: bool) -> list[_Part]:
+def _share(box: Box, sizes: Sizes, asked: list[Question], left: int, jobs: int, *, reduced: bool) -> list[_Part]:
     if jobs == 1 or box.count(*sizes) < WORTH_SHARING:
         return [_search(box, sizes, asked, left, 0, 1, reduced=reduced)]
     with pool(jobs, None) as parallel:
@@ -119,7 +120,7 @@ def _share(box: Box, sizes: tuple[int, int, int], asked: list[Question], left: i
         return list(parallel(tasks))
 
 
-def _search(box: Box, sizes: tuple[int, int, int], asked: list[Question], left: int, mine: int, of: int, *, reduced: bool) -> _Part:
+def _search(box: Box, sizes: Sizes, asked: list[Question], left: int, mine: int, of: int, *, reduced: bool) -> _Part:
     """Try every `of`th stretch of the systems of these sizes, from number `mine` on."""
     part = _Part(met=[0] * len(asked), first=[None] * len(asked))
     for number, stretch in part.stretches(box, sizes, left, mine, of, reduced=reduced):
@@ -141,12 +142,12 @@ def _ask(question: Question, k: int, number: int, stretch: Stretch, part: _Part)
         conclusion = question.conclusion
         failing = rows[~true_of(conclusion, stretch.batch, rows, part.tables.setdefault(conclusion, Table()))]
     except UndefinedAt as error:
-        system = stretch.batch.system(error.index)
+        system = stretch.batch.case(error.index)
         part.first[k] = (number, int(stretch.places[error.index])), Undefined(str(error), system)
         return
     if len(failing):
         first = int(failing[np.argmin(stretch.places[failing])])
-        part.first[k] = (number, int(stretch.places[first])), stretch.batch.system(first)
+        part.first[k] = (number, int(stretch.places[first])), stretch.batch.case(first)
 
 
 def must_have_a_value(undefined: Undefined, where: str) -> InvalidInput:

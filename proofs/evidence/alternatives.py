@@ -6,6 +6,8 @@ PAIRS                     all pairs over GF(2) at small dimensions, shift regist
 ALTERNATIVES              every (F', G') over GF(2) at small dimensions; pairs (Fhat P, Ghat P) for good and bad P over Q
 examine_pair, examine_alternative    the evidence on one of each
 comparison_certificate    the certificate of equality or of the first difference, whichever is so
+relatives                 systems made of one, with the same outputs or nearly
+small_columns             matrices P of several kinds
 ranked, fault_space_basis    what is asked of one system of a pair alone, kept because a system stands in many of them
 """
 
@@ -154,7 +156,7 @@ def _pairs(bench: Any) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, in
         yield "shift registers", idle, driven, 1
     named = [system for _, system in adversarial() if system.n <= 3]
     for system in [*named, *random_systems(QQ, 600 if full else 90, seed=2)]:
-        for other in _relatives(system, random.Random(str(system))):
+        for other in relatives(system, random.Random(str(system))):
             yield "named and random systems over Q against equivalent and perturbed ones", system, other, 1
     largest = 2 if full else 1
     for p in range(3):
@@ -170,26 +172,30 @@ def _pairs(bench: Any) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, in
                     )
 
 
-def _relatives(system: ResidualSystem, rng: random.Random) -> Iterator[ResidualSystem]:
-    """Systems made of one: by feedback of the state into the fault and by another basis (with the same outputs), by a changed entry, by a
-    state more.
+def relatives(system: ResidualSystem, rng: random.Random) -> Iterator[ResidualSystem]:
+    """Yield systems made of one: by feedback of the state into the fault and by another basis (with the same outputs), by a changed entry,
+    by a state more.
     """
-    K = Matrix.of([[rng.choice([-1, 0, 1]) for _ in range(system.n)] for _ in range(system.m)], QQ, shape=(system.m, system.n))
+    field = system.field
+    K = Matrix.of([[rng.choice([-1, 0, 1]) for _ in range(system.n)] for _ in range(system.m)], field, shape=(system.m, system.n))
     yield ResidualSystem(system.A + system.F @ K, system.F, system.C + system.G @ K, system.G)
     if system.n:
-        # 2 on the diagonal, ones in the first row: upper triangular, so invertible
-        T = Matrix.of([[2 if i == j else int(i == 0) for j in range(system.n)] for i in range(system.n)], QQ, shape=(system.n, system.n))
+        # 2 on the diagonal (1 over GF(2)), ones in the first row: upper triangular, so invertible
+        two = 2 if field.element(2) != 0 else 1
+        T = Matrix.of(
+            [[two if i == j else int(i == 0) for j in range(system.n)] for i in range(system.n)], field, shape=(system.n, system.n)
+        )
         moved = solve_left(T, stacked(T @ system.A, system.C))
         if moved is not None:
             A, C = moved.rows(range(system.n)), moved.rows(range(system.n, system.n + system.p))
             yield ResidualSystem(A, T @ system.F, C, system.G)
     if system.n and system.m:
         table = system.F.elements()
-        table[rng.randrange(system.n)][rng.randrange(system.m)] = QQ.element(rng.choice([-2, 0, 1, 3]))
-        yield system.with_faults(Matrix.from_elements(QQ, system.n, system.m, table), system.G)
-    edge = Matrix.of([[rng.choice([0, 1])] for _ in range(system.p)], QQ, shape=(system.p, 1))
-    A = stacked(beside(system.A, Matrix.zero(QQ, system.n, 1)), Matrix.of([[0] * system.n + [rng.choice([0, 2])]], QQ))
-    yield ResidualSystem(A, stacked(system.F, Matrix.zero(QQ, 1, system.m)), beside(system.C, edge), system.G)
+        table[rng.randrange(system.n)][rng.randrange(system.m)] = field.element(rng.choice([-2, 0, 1, 3]))
+        yield system.with_faults(Matrix.from_elements(field, system.n, system.m, table), system.G)
+    edge = Matrix.of([[rng.choice([0, 1])] for _ in range(system.p)], field, shape=(system.p, 1))
+    A = stacked(beside(system.A, Matrix.zero(field, system.n, 1)), Matrix.of([[0] * system.n + [rng.choice([0, 2])]], field))
+    yield ResidualSystem(A, stacked(system.F, Matrix.zero(field, 1, system.m)), beside(system.C, edge), system.G)
 
 
 def _alternatives(bench: Any) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, int]]:
@@ -198,7 +204,7 @@ def _alternatives(bench: Any) -> Iterator[tuple[str, ResidualSystem, ResidualSys
     for system in [*named, *random_systems(QQ, 600 if full else 60, seed=3)]:
         space = fault_space(kernel_representation(system))
         rng = random.Random(str(system))
-        for P in _choices(space.dimension, system.m, rng):
+        for P in small_columns(space.dimension, system.m, rng):
             yield "pairs (Fhat P, Ghat P) over Q, P generic, sparse and rank-deficient", system, with_pair(space, P), 1
     for n, p, m in product(range(3 if full else 2), range(3), range(1, 3 if full else 2)):
         columns = list(product(range(2), repeat=(n + p) * m))
@@ -214,7 +220,7 @@ def _alternatives(bench: Any) -> Iterator[tuple[str, ResidualSystem, ResidualSys
                 )
 
 
-def _choices(rows: int, cols: int, rng: random.Random) -> Iterator[Matrix]:
+def small_columns(rows: int, cols: int, rng: random.Random) -> Iterator[Matrix]:
     """Yield P of several kinds: generic, sparse, of unit columns and rank-deficient."""
     for density in (1.0, 0.5, 0.3):
         yield Matrix.of(

@@ -13,6 +13,10 @@ multiples by numbers without s of linear functions are linear, so that the two s
 their difference is not constant it changes its sign at one place only. Between two neighbouring ones of these places no comparison
 changes, and neither does the expression, which is made of comparisons by `and`, `or`, `not`, `implies`, `iff`. What it is at a, ..., S, and
 at the last integer up to each place and the two after it, is therefore all that it is from a on. Source: [F75], [VD79].
+
+Of two systems n is the larger number of states: the ranks of each are linear from n + 1 on, and whether their outputs of s samples are
+equal, or those of one among those of the other, stays as it is from n + 1 on, since no kernel row of either has a larger degree than n.
+Of a record n is the number of samples, where that is larger: a Hankel matrix with more block rows has no columns, and the rank 0.
 """
 
 from __future__ import annotations
@@ -36,6 +40,9 @@ def check_unbounded(node: Node, variable: str) -> None:
         for part in node.args:
             check_unbounded(part, variable)
         return
+    if node.op == "windowed":
+        _check_argument(node, variable)
+        return
     if node.op == "compare" and all(part.kind == Kind.INTEGER for part in node.args):
         for part in node.args:
             _check_linear(part, variable)
@@ -48,15 +55,8 @@ def _check_linear(node: Node, variable: str) -> None:
         return
     holding = [part for part in node.args if variable in variables(part)]
     if node.op == "windowed" and node.kind == Kind.INTEGER:
-        argument = node.args[0]
-        shifted = argument.op in "+-" and variable not in variables(argument.args[1]) and argument.args[0].op == "variable"
-        turned = argument.op == "+" and variable not in variables(argument.args[0]) and argument.args[1].op == "variable"
-        if argument.op == "variable" or shifted or turned:
-            return
-        raise InvalidInput(
-            f"column {argument.column}: got {shorten(node.text)} for every {variable}, expected {variable}, {variable} + c or "
-            f"{variable} - c as the number of samples, c without {variable}"
-        )
+        _check_argument(node, variable)
+        return
     if node.op in ("+", "-", "negative") or (node.op == "*" and len(holding) == 1):
         for part in holding:
             _check_linear(part, variable)
@@ -64,10 +64,23 @@ def _check_linear(node: Node, variable: str) -> None:
     raise _refusal(node, variable)
 
 
+def _check_argument(node: Node, variable: str) -> None:
+    """Raise InvalidInput unless the number of samples is s, s + c or s - c."""
+    argument = node.args[0]
+    shifted = argument.op in "+-" and variable not in variables(argument.args[1]) and argument.args[0].op == "variable"
+    turned = argument.op == "+" and variable not in variables(argument.args[0]) and argument.args[1].op == "variable"
+    if argument.op == "variable" or shifted or turned:
+        return
+    raise InvalidInput(
+        f"column {argument.column}: got {shorten(node.text)} for every {variable}, expected {variable}, {variable} + c or "
+        f"{variable} - c as the number of samples, c without {variable}"
+    )
+
+
 def _refusal(node: Node, variable: str) -> InvalidInput:
     return InvalidInput(
         f"column {node.column}: got {variable} in {shorten(node.text)}, and windows(a) without an end asks for every {variable} >= a; "
-        f"there {variable} may stand in rank_O, rank_T, rank_OT, gap and solutions, in sums, differences and comparisons alone; give "
+        f"there {variable} may stand in functions of a number of samples, rank_OT say, in sums, differences and comparisons alone; give "
         "windows an end"
     )
 

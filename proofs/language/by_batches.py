@@ -1,4 +1,4 @@
-"""The value of an expression on many small systems at once: those of which all that it reads is equal are decided together.
+"""The value of an expression on many small systems, or pairs, at once: those of which all that it reads is equal are decided together.
 
     true_of       which systems of a batch an expression is true of
     values_of     what several expressions are on the systems of a batch, and where
@@ -19,11 +19,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...exact.algebra.stability import is_schur
-from ..quantities.batches import Batch, Chosen, characteristic
+from ..quantities.batches import characteristic
 from ..quantities.elimination import Integers, Overflow, leading_ranks
-from ..quantities.ranks import Ranks, Wanted
-from ..quantities.registry import Subject, quantities
-from .evaluating import Bound, Exactly, Knows, check_shapes, evaluate, exponent, side
+from ..quantities.many import Chosen, Many
+from ..quantities.ranks import Numbers, Wanted
+from ..quantities.registry import Quantity, quantities
+from .evaluating import Bound, Knows, check_shapes, evaluate, exactly, exponent, side
 from .nodes import Node, Undefined, variables
 
 Flags = NDArray[np.bool_]
@@ -62,32 +63,40 @@ class UndefinedAt(Undefined):
 
 @dataclass(frozen=True)
 class _Row:
-    """One set of numbers, of one or more systems of the same sizes."""
+    """One set of numbers, of one or more cases of the same sizes."""
 
-    ranks: Ranks
+    numbers: Numbers
+    own: Mapping[str, Quantity]
 
     @property
-    def n(self) -> int:
-        return self.ranks.n
+    def horizon(self) -> int:
+        return max(self.numbers.samples, *(n for n, _, _ in self.numbers.sizes.values()))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(self.numbers.sizes)
 
     def quantity(self, subject: str, name: str) -> Any:
-        return quantities()[name].from_ranks(self.ranks)
+        return self._ask(subject, name)
 
     def windowed(self, subject: str, name: str, s: int) -> Any:
-        return quantities()[name].from_ranks(self.ranks, s)
+        return self._ask(subject, name, s)
+
+    def _ask(self, subject: str, name: str, *samples: int) -> Any:
+        if not subject and name in self.own:
+            return self.own[name].from_ranks(self.numbers, *samples)
+        return quantities()[name].from_ranks(self.numbers.of(subject), *samples)
 
     def of_matrix(self, node: Node, bound: Bound) -> Any:
         if variables(node):
             raise OneByOne
-        if node not in self.ranks.known:
-            raise Wanted(node)
-        found = self.ranks.known[node]
+        found = self.numbers.table(node)
         if node.op == "schur_stable":
-            return is_schur(found)
+            return is_schur(found[: np.flatnonzero(found)[-1] + 1])  # what is narrower than others was filled up with zeros
         return bool(found[0]) if node.op in ("is_zero", "nilpotent") else found[0]
 
 
-def true_of(node: Node, batch: Batch, rows: Chosen, table: Table) -> Flags:
+def true_of(node: Node, batch: Many, rows: Chosen, table: Table) -> Flags:
     """Return of which systems of these rows the expression is true. Raises UndefinedAt where it has no value on one of them."""
     found = np.zeros(len(rows), dtype=bool)
 
@@ -98,7 +107,7 @@ def true_of(node: Node, batch: Batch, rows: Chosen, table: Table) -> Flags:
     return found
 
 
-def values_of(nodes: Sequence[Node], batch: Batch, rows: Chosen, table: Table) -> list[tuple[Values, Chosen]]:
+def values_of(nodes: Sequence[Node], batch: Many, rows: Chosen, table: Table) -> list[tuple[Values, Chosen]]:
     """Return the values that the expressions have on systems of these rows, with the rows; the same values may come more than once.
 
     Raises UndefinedAt where one has no value on a system.
@@ -109,7 +118,7 @@ def values_of(nodes: Sequence[Node], batch: Batch, rows: Chosen, table: Table) -
     return found
 
 
-def _each(ask: _Ask, batch: Batch, rows: Chosen, table: Table, note: _Note) -> None:
+def _each(ask: _Ask, batch: Many, rows: Chosen, table: Table, note: _Note) -> None:
     """Ask about the systems of these rows, and note what is answered for which places of `rows`."""
     noted: list[tuple[Any, Chosen]] = []
     try:
@@ -118,7 +127,7 @@ def _each(ask: _Ask, batch: Batch, rows: Chosen, table: Table, note: _Note) -> N
         noted = []
         for place, index in enumerate(rows):
             try:
-                noted.append((ask(Exactly({"": Subject(batch.system(int(index)))})), np.array([place])))
+                noted.append((ask(exactly(batch.case(int(index)))), np.array([place])))
             except Undefined as error:
                 raise UndefinedAt(str(error), int(index)) from None
     for answer, places in noted:
@@ -126,7 +135,7 @@ def _each(ask: _Ask, batch: Batch, rows: Chosen, table: Table, note: _Note) -> N
 
 
 def _decide(
-    ask: _Ask, batch: Batch, rows: Chosen, places: Chosen, keys: tuple[Any, ...], table: Table, noted: list[tuple[Any, Chosen]]
+    ask: _Ask, batch: Many, rows: Chosen, places: Chosen, keys: tuple[Any, ...], table: Table, noted: list[tuple[Any, Chosen]]
 ) -> None:
     """Note the answers at these places of `rows`, of which the numbers of `keys` are known."""
     known = [batch.column(key, rows[places], _finder(key)) for key in keys]
@@ -139,7 +148,7 @@ def _decide(
         name = (keys, row.tobytes())
         if name not in table.answers:
             parts = dict(zip(keys, (tuple(map(int, part)) for part in np.split(row, widths)), strict=True)) if known else {}
-            table.answers[name] = _answer(ask, Ranks(batch.n, batch.m, batch.p, parts))
+            table.answers[name] = _answer(ask, _Row(Numbers(batch.sizes, parts, batch.samples), batch.own))
         answer = table.answers[name]
         if isinstance(answer, Wanted):
             wanting.setdefault(answer.key, []).append(i)
@@ -151,9 +160,9 @@ def _decide(
         _decide(ask, batch, rows, np.sort(np.concatenate([groups[i] for i in numbered])), (*keys, key), table, noted)
 
 
-def _answer(ask: _Ask, ranks: Ranks) -> Any:
+def _answer(ask: _Ask, row: _Row) -> Any:
     try:
-        return ask(_Row(ranks))
+        return ask(row)
     except Wanted as wanted:
         return wanted
     except Undefined as error:
@@ -184,7 +193,7 @@ def _finder(key: Any) -> Any:
     return (lambda batch: _of_matrices(key, batch)) if isinstance(key, Node) else None
 
 
-def _of_matrices(node: Node, batch: Batch) -> Integers:
+def _of_matrices(node: Node, batch: Many) -> Integers:
     """Return what a function of a matrix is, for every system of the batch."""
     built = _matrices(node.args[0], batch)
     count, rows, columns = built.shape
@@ -213,43 +222,23 @@ def _is_zero(matrices: Integers) -> Integers:
     return np.where(np.any(matrices.reshape(len(matrices), height * width), axis=1), 0, 1)
 
 
-@dataclass(frozen=True)
-class _Sizes:
-    """It knows the sizes alone, which all systems of a batch share."""
-
-    sizes: Mapping[str, int]
-
-    @property
-    def n(self) -> int:
-        return self.sizes["n"]
-
-    def quantity(self, subject: str, name: str) -> Any:
-        if name not in self.sizes:
-            raise OneByOne
-        return self.sizes[name]
-
-    def windowed(self, subject: str, name: str, s: int) -> Any:
-        raise OneByOne
-
-    def of_matrix(self, node: Node, bound: Bound) -> Any:
-        raise OneByOne
-
-
-def _matrices(node: Node, batch: Batch) -> Integers:
+def _matrices(node: Node, batch: Many) -> Integers:
     """Return the matrix that an expression is, for every system (N, rows, columns). Raises OneByOne, Overflow; the exact way tells what is
     wrong with shapes.
     """
-    sizes = _Sizes({"n": batch.n, "m": batch.m, "p": batch.p})
+    sizes = _Row(Numbers(batch.sizes, {}, batch.samples), batch.own)
 
     def number(part: Node) -> float:
-        found: float = evaluate(part, sizes)
+        try:
+            found: float = evaluate(part, sizes)
+        except Wanted:
+            raise OneByOne from None
         return found
 
     try:
         match node.op:
             case "matrix":
-                found: Integers = getattr(batch, node.value[1])
-                return found
+                return batch.matrix(*node.value)
             case "I":
                 k = side(number(node.args[0]), node)
                 return np.broadcast_to(np.eye(k, dtype=np.int64), (len(batch), k, k))
@@ -278,7 +267,7 @@ def _matrices(node: Node, batch: Batch) -> Integers:
     return np.concatenate(parts, axis=2 if node.op == "hstack" else 1)
 
 
-def _reduced(built: Integers, batch: Batch) -> Integers:
+def _reduced(built: Integers, batch: Many) -> Integers:
     if batch.prime is None:
         if built.size and max(-int(built.min()), int(built.max())) >= 2**61:
             raise Overflow("a sum of matrices")
@@ -286,7 +275,7 @@ def _reduced(built: Integers, batch: Batch) -> Integers:
     return built % batch.prime
 
 
-def _powers(base: Integers, k: int, batch: Batch) -> Integers:
+def _powers(base: Integers, k: int, batch: Many) -> Integers:
     found = np.broadcast_to(np.eye(base.shape[1], dtype=np.int64), base.shape)
     for _ in range(k):
         found = batch.product(found, base)

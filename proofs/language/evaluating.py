@@ -3,6 +3,7 @@
     Knows           answers for a quantity, a windowed one, a function of a matrix
     Exactly         asks the exact functions about one system (`Subject`), and remembers what it was asked
     evaluate        the value of a Node: an int or inf, a tuple of ints, a bool
+    exactly         Exactly about a system, a pair
     exact_matrix    the Matrix that a node is
     Asked           what a predicate of Python is given
 
@@ -20,7 +21,11 @@ from typing import Any, Protocol
 from ...base.errors import shorten
 from ...exact.algebra.matrices import Matrix, beside, rank, stacked
 from ...exact.algebra.stability import is_stable
+from ..quantities.cases import Case, Choice, ChoiceSubject, Known, Pair, PairSubject, Record, RecordSubject
+from ..quantities.choices import OF_A_CHOICE
+from ..quantities.pairs import OF_A_PAIR, OF_ONE_A_AND_C
 from ..quantities.ranks import Wanted
+from ..quantities.records import OF_A_RECORD
 from ..quantities.registry import Quantity, Subject, quantities
 from .affine import decisive
 from .grammar import MATRICES, OF_A_MATRIX
@@ -34,8 +39,16 @@ class Knows(Protocol):
     """Something that knows the quantities of a system, or of several."""
 
     @property
-    def n(self) -> int:
-        """The number of states, the larger one of two systems."""
+    def horizon(self) -> int:
+        """The largest number of states, or of samples of a record: one sample later all that has a window is linear in it."""
+
+    @property
+    def own(self) -> Mapping[str, Quantity]:
+        """The quantities of the whole that the claim is about, where that is not a system."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the systems."""
 
     def quantity(self, subject: str, name: str) -> Any:
         """Return the value of a quantity."""
@@ -62,8 +75,13 @@ class Exactly:
         self.matrices: dict[str, tuple[str, Matrix, Any]] = {}
 
     @property
-    def n(self) -> int:
-        return max(one.system.n for one in self.subjects.values())
+    def horizon(self) -> int:
+        samples = self.whole.u.nrows if isinstance(self.whole, RecordSubject) else 0
+        return max(samples, *(one.system.n for one in self.subjects.values()))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(self.subjects)
 
     def quantity(self, subject: str, name: str) -> Any:
         return self._ask(subject, name, None)
@@ -74,14 +92,20 @@ class Exactly:
     def _ask(self, subject: str, name: str, s: int | None) -> Any:
         key = subject, name, s
         if key not in self.asked:
-            given = self.whole if name in self.own else self.subjects[subject]
-            found = self.own[name] if name in self.own else quantities()[name]
+            given, found = self.found(subject, name)
             self.asked[key] = found.exact(given) if s is None else found.exact(given, s)
         return self.asked[key]
 
+    def found(self, subject: str, name: str) -> tuple[Any, Quantity]:
+        """Return what a quantity is one of, and the quantity."""
+        if not subject and name in self.own:
+            return self.whole, self.own[name]
+        return self.subjects[subject], quantities()[name]
+
     def matrix(self, subject: str, name: str) -> Matrix:
-        """Return A, F, C or G."""
-        found: Matrix = getattr(self.subjects[subject].system, name)
+        """Return A, F, C or G of a system, or a matrix of the whole."""
+        whole = {} if subject or self.whole is None else self.whole.matrices
+        found: Matrix = whole[name] if name in whole else getattr(self.subjects[subject].system, name)
         return found
 
     def of_matrix(self, node: Node, bound: Bound) -> Any:
@@ -106,6 +130,20 @@ class Exactly:
         at = ", ".join(f"{name} = {bound[name]}" for name in sorted(variables(node)))
         self.matrices[node.text + (f" at {at}" if at else "")] = (node.op, built, found)
         return found
+
+
+def exactly(case: Case, known: Known | None = None) -> Exactly:
+    """Return what knows a case; `known` is what is known of it already."""
+    if isinstance(case, Pair):
+        pair = known if isinstance(known, PairSubject) else PairSubject(Subject(case.first), Subject(case.second))
+        return Exactly(pair.subjects, OF_ONE_A_AND_C if case.one_A_and_C else OF_A_PAIR, pair)
+    if isinstance(case, Choice):
+        choice = known if isinstance(known, ChoiceSubject) else ChoiceSubject(Subject(case.system), case.P)
+        return Exactly(choice.subjects, OF_A_CHOICE, choice)
+    if isinstance(case, Record):
+        record = known if isinstance(known, RecordSubject) else RecordSubject(Subject(case.system.residual), case)
+        return Exactly(record.subjects, OF_A_RECORD, record)
+    return Exactly({"": known if isinstance(known, Subject) else Subject(case)})
 
 
 def evaluate(node: Node, knows: Knows, bound: Bound | None = None) -> Any:
@@ -165,19 +203,24 @@ def predicate_holds(node: Node, knows: Knows) -> bool:
 
 
 class Asked:
-    """What a Python predicate is given: the quantities by their names, `s.lag`, `s.rank_OT(3)`. It has no matrices."""
+    """What a Python predicate is given: the quantities by their names, `s.lag`, `s.rank_OT(3)`, `s.first.lag`. It has no matrices."""
 
-    def __init__(self, knows: Knows) -> None:
+    def __init__(self, knows: Knows, subject: str = "") -> None:
         self._knows = knows
+        self._subject = subject
 
     def __getattr__(self, name: str) -> Any:
-        if name not in quantities():
+        knows, subject = self._knows, self._subject
+        if not subject and name and name in knows.names:
+            return Asked(knows, name)
+        known = {**(quantities() if subject in knows.names else {}), **({} if subject else knows.own)}
+        if name not in known:
             hint = "; matrices stand in text alone" if name in MATRICES else ""
-            near = get_close_matches(name, list(quantities()), 1, 0.5)
+            near = get_close_matches(name, [*known, *(() if subject else filter(None, knows.names))], 1, 0.5)
             raise AttributeError(f"got {name}, which is no quantity" + (f"; the nearest is {near[0]}" if near and not hint else hint))
-        if quantities()[name].windowed:
-            return lambda s: self._knows.windowed("", name, s)
-        return self._knows.quantity("", name)
+        if known[name].windowed:
+            return lambda s: knows.windowed(subject, name, s)
+        return knows.quantity(subject, name)
 
 
 def exact_matrix(node: Node, knows: Exactly, bound: Bound) -> Matrix:
@@ -358,7 +401,7 @@ def _windows(node: Node, knows: Knows, bound: Bound) -> tuple[Sequence[int], Cal
         found: float = evaluate(part, knows, bound if s is None else {**bound, node.value: s})
         return found
 
-    return decisive(body, node.value, start, knows.n, value), at
+    return decisive(body, node.value, start, knows.horizon, value), at
 
 
 def _end(found: float, node: Node) -> int:

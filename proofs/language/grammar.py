@@ -1,8 +1,6 @@
 """This reads the text of an expression: Python's grammar, by `ast`, against a closed list. Nothing is evaluated by Python.
 
     read           the Node of a text of a given kind, for claims with a given vocabulary
-    Vocabulary     the names that a kind of claim may use
-    ABOUT_A_SYSTEM the vocabulary of claims about one system
 
 Raises InvalidInput with the column, what was got, and the nearest name where there is one. What the functions take is in SIGNATURES.
 """
@@ -11,13 +9,13 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from difflib import get_close_matches
 
 from ...base.errors import InvalidInput, shorten
 from ..quantities.registry import Kind, Quantity, quantities
 from .affine import check_unbounded
 from .nodes import DEEPEST, LARGEST_INTEGER, LONGEST, MOST_PARTS, Node
+from .vocabularies import ABOUT_A_SYSTEM, VOCABULARIES, Vocabulary
 
 INTEGER, LIST, WORD, MATRIX = Kind.INTEGER, Kind.LIST, Kind.WORD, Kind.MATRIX
 # what a function takes, and what it gives; `min`, `max`, `sum`, `len`, `hstack` and `vstack` have rules of their own
@@ -41,23 +39,6 @@ MATRICES = ("A", "F", "C", "G")
 OTHERS = ("min", "max", "sum", "len", "hstack", "vstack", "all", "any", "least", "windows", "inf")
 ARITHMETIC = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.FloorDiv: "//", ast.Mod: "%", ast.MatMult: "@"}
 COMPARISONS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
-
-
-@dataclass(frozen=True)
-class Vocabulary:
-    """`subjects` are the systems that a claim is about, "" where it is one; `own` are quantities of the subject as a whole."""
-
-    about: str
-    subjects: tuple[str, ...] = ("",)
-    own: Mapping[str, Quantity] = field(default_factory=dict)
-
-    def names(self) -> list[str]:
-        """Return every name that can stand alone."""
-        single = [*quantities(), *MATRICES] if "" in self.subjects else []
-        return [*single, *self.own, *(one for one in self.subjects if one), *SIGNATURES, *OTHERS]
-
-
-ABOUT_A_SYSTEM = Vocabulary("system")
 
 
 def read(text: str, kind: Kind = WORD, vocabulary: Vocabulary = ABOUT_A_SYSTEM) -> Node:
@@ -91,6 +72,13 @@ class _Reader:
         return ast.get_source_segment(self.text, tree) or ast.unparse(tree)
 
     def unknown(self, tree: ast.AST, name: str, known: list[str]) -> InvalidInput:
+        if name in self.vocabulary.names():
+            raise self.bad(tree, f"got {shorten(self.words(tree))}, expected {name} alone: it belongs to none of the systems")
+        elsewhere = [about for about, one in VOCABULARIES.items() if name in one.names()]
+        if elsewhere:
+            raise self.bad(
+                tree, f"got {name}, a word of claims about a {elsewhere[0]}, expected one of those about a {self.vocabulary.about}"
+            )
         near = get_close_matches(name, [*known, *self.bound], 1, 0.5)
         return self.bad(tree, f"got {shorten(name)}, which is no name of the language" + (f"; the nearest is {near[0]}" if near else ""))
 
@@ -120,7 +108,7 @@ class _Reader:
             case ast.Attribute(value=inner, attr="T"):
                 return self.make(tree, "transpose", MATRIX, (self.expect(self.node(inner, depth + 1), MATRIX, inner),))
             case ast.Attribute():
-                raise self.bad(tree, f"got {shorten(self.words(tree))}, expected .T of a matrix{self._subjects()}")
+                raise self.bad(tree, f"got {shorten(self.words(tree))}, expected .T of a matrix{self._subjects(tree)}")
             case ast.UnaryOp(op=ast.Not(), operand=inner):
                 return self.make(tree, "not", WORD, (self.expect(self.node(inner, depth + 1), WORD, inner),))
             case ast.UnaryOp(op=ast.USub(), operand=inner):
@@ -147,12 +135,16 @@ class _Reader:
                 subject in self.vocabulary.subjects
             ):
                 return self.windowed(tree, subject, name, args, depth, quantities())
+            case ast.Call(keywords=[], func=ast.Attribute() as function) if any(self.vocabulary.subjects):
+                raise self.bad(tree, f"got {shorten(self.words(tree))}, expected the name of a function{self._subjects(function)}")
             case _:
                 raise self.bad(tree, f"got {shorten(self.words(tree))}, which the language has no words for")
 
-    def _subjects(self) -> str:
+    def _subjects(self, tree: ast.Attribute) -> str:
         named = [one for one in self.vocabulary.subjects if one]
-        return f", or a name after {' or '.join(f'{one}.' for one in named)}" if named else ""
+        near = get_close_matches(self.words(tree.value), named, 1, 0.5)
+        hint = f"; the nearest is {near[0]}.{tree.attr}" if near else ""
+        return f", or a name after {' or '.join(f'{one}.' for one in named)}{hint}" if named else ""
 
     def name(self, tree: ast.AST, name: str) -> Node:
         if name in self.bound:
@@ -161,19 +153,25 @@ class _Reader:
             return self.make(tree, "constant", INTEGER, value=float("inf"))
         if name in self.vocabulary.own:
             return self.quantity(tree, self.vocabulary.own[name], "")
-        if "" in self.vocabulary.subjects and (name in MATRICES or name in quantities()):
+        if ("", name) in self.vocabulary.sides or ("" in self.vocabulary.subjects and name in quantities()):
             return self.of_subject(tree, "", name)
-        if name in quantities() or name in MATRICES:
-            raise self.bad(tree, f"got {name} alone, expected {' or '.join(f'{one}.{name}' for one in self.vocabulary.subjects)}")
+        behind = [f"{one}.{name}" for one in self.vocabulary.subjects if one and name in self.vocabulary.after(one)]
+        if behind:
+            raise self.bad(tree, f"got {name} alone, expected {' or '.join(behind)}")
+        if name in self.vocabulary.subjects:
+            raise self.bad(tree, f"got {name} alone, expected a name after {name}., {name}.lag say")
         if name in SIGNATURES or name in OTHERS:
             raise self.bad(tree, f"got {name} alone, expected {name}(...)")
-        raise self.unknown(tree, name, self.vocabulary.names())
+        raise self.unknown(tree, name, self.known())
+
+    def known(self) -> list[str]:
+        return [*self.vocabulary.names(), *SIGNATURES, *OTHERS]
 
     def of_subject(self, tree: ast.AST, subject: str, name: str) -> Node:
-        if name in MATRICES:
+        if (subject, name) in self.vocabulary.sides:
             return self.make(tree, "matrix", MATRIX, value=(subject, name))
         if name not in quantities():
-            raise self.unknown(tree, name, [*quantities(), *MATRICES])
+            raise self.unknown(tree, name, self.vocabulary.after(subject))
         return self.quantity(tree, quantities()[name], subject)
 
     def quantity(self, tree: ast.AST, found: Quantity, subject: str) -> Node:
@@ -219,6 +217,9 @@ class _Reader:
         if name not in SIGNATURES:
             if name in self.vocabulary.names():
                 raise self.bad(tree, f"got {shorten(self.words(tree))}, but {name} is no function")
+            if name in windowed:
+                behind = " or ".join(f"{one}.{name}(s)" for one in self.vocabulary.subjects)
+                raise self.bad(tree, f"got {shorten(self.words(tree))}, expected {behind}")
             raise self.unknown(tree, name, [*SIGNATURES, *windowed, *OTHERS])
         kinds, kind = SIGNATURES[name]
         if len(args) != len(kinds):
@@ -272,7 +273,7 @@ class _Reader:
             if not isinstance(body, ast.Name) or body.id != variable:
                 raise self.bad(tree, f"got {shorten(self.words(tree))}, expected {form}")
             body = conditions[0]
-        if variable in self.bound or variable in self.vocabulary.names() or variable in quantities() or variable in MATRICES:
+        if variable in self.bound or variable in self.known() or variable in quantities() or variable in MATRICES:
             raise self.bad(tree, f"got {variable} as the name of a window, which is taken, expected another one")
         ends = tuple(self.expect(self.node(one, depth + 1), INTEGER, one) for one in (lower, *rest))
         self.bound.append(variable)

@@ -3,7 +3,8 @@
     invariant      every matrix in the expressions is moved along by such a change, so that what is asked of it stays as it is
 
 Quantities stay as they are. A matrix is followed by what its rows and columns stand for: A has states by states ("x", "x"), F states by
-faults, C outputs by states, G outputs by faults, I(n) states by states. Sums need equal sides and products a common one; `.T` exchanges
+faults, C outputs by states, G outputs by faults, I(n) states by states; the states of two systems are not
+the same. Sums need equal sides and products a common one; `.T` exchanges
 them, since these changes are orthogonal. Where that fails, G + F with n = p say, the expression may depend on how things are numbered, and
 every system of a box is looked at.
 """
@@ -12,34 +13,31 @@ from __future__ import annotations
 
 from .grammar import OF_A_MATRIX
 from .nodes import Node, walk
-
-Sides = tuple[tuple[str, ...], tuple[str, ...]]
-OF = {"A": (("x",), ("x",)), "F": (("x",), ("v",)), "C": (("y",), ("x",)), "G": (("y",), ("v",))}
-COUNTS = {"n": ("x",), "m": ("v",), "p": ("y",)}
+from .vocabularies import ABOUT_A_SYSTEM, Sides, Vocabulary
 
 
-def invariant(*nodes: Node) -> bool:
+def invariant(*nodes: Node, vocabulary: Vocabulary = ABOUT_A_SYSTEM) -> bool:
     """Whether that is so for all of them."""
-    return all(_stays(one) for node in nodes for one in walk(node) if one.op in OF_A_MATRIX)
+    return all(_stays(one, vocabulary) for node in nodes for one in walk(node) if one.op in OF_A_MATRIX)
 
 
-def _stays(node: Node) -> bool:
-    found = _sides(node.args[0])
+def _stays(node: Node, vocabulary: Vocabulary) -> bool:
+    found = _sides(node.args[0], vocabulary)
     return found is not None and (node.op not in ("nilpotent", "schur_stable") or found[0] == found[1])
 
 
-def _sides(node: Node) -> Sides | None:
+def _sides(node: Node, vocabulary: Vocabulary) -> Sides | None:
     """Return what rows and columns stand for; None where the matrix is not moved along."""
     match node.op:
         case "matrix":
-            return OF[node.value[1]]
+            return vocabulary.sides[node.value]
         case "I":
-            side = _counted(node.args[0])
+            side = _counted(node.args[0], vocabulary)
             return None if side is None else (side, side)
         case "zeros":
-            rows, columns = map(_counted, node.args)
+            rows, columns = (_counted(one, vocabulary) for one in node.args)
             return None if rows is None or columns is None else (rows, columns)
-    parts = [_sides(part) for part in node.args if part.kind == node.kind]
+    parts = [_sides(part, vocabulary) for part in node.args if part.kind == node.kind]
     known = [part for part in parts if part is not None]
     if len(known) < len(parts):
         return None
@@ -60,5 +58,5 @@ def _sides(node: Node) -> Sides | None:
     return first if known[1] == first else None
 
 
-def _counted(node: Node) -> tuple[str, ...] | None:
-    return COUNTS.get(node.value[1]) if node.op == "quantity" else None
+def _counted(node: Node, vocabulary: Vocabulary) -> tuple[str, ...] | None:
+    return vocabulary.counted(*node.value) if node.op == "quantity" else None

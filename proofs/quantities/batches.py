@@ -1,8 +1,7 @@
 """Many small systems of the same sizes, one a row, and what is found out about all of them together.
 
     Batch        A (N, n, n), F (N, n, m), C (N, p, n), G (N, p, m): integers over Q, residues over GF(q)
-    column       the numbers of a family for some of the systems, found once
-    matrix       the value of a matrix of the language for some of the systems (`Shape` errors are the language's)
+    observed, driven, reached, window     O_s, T_s, [A^(s-1) F, ..., F], [O_s T_s] of every system
 
 The families, with s = 0, ..., n + 1 unless another count is told:
 
@@ -16,31 +15,24 @@ The families, with s = 0, ..., n + 1 unless another count is told:
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...base.errors import InvalidInput
 from ...exact.algebra.fields import QQ, PrimeField
 from ...exact.system.systems import ResidualSystem
 from . import ranks as names
-from .elimination import Integers, Overflow, determinants, leading_ranks, times
+from .elimination import Integers, Overflow, determinants, leading_ranks
+from .many import Chosen, Column, Many
 from .zeros import choices
 
-Chosen = NDArray[np.intp]
-
 
 @dataclass
-class _Column:
-    done: NDArray[np.bool_]
-    values: Integers
-
-
-@dataclass
-class Batch:
+class Batch(Many):
     """These are systems of the same sizes over Q (`prime` None) or GF(prime): the matrices are these, over one denominator."""
 
     A: Integers
@@ -49,7 +41,7 @@ class Batch:
     G: Integers
     prime: int | None = None
     denominator: int = 1
-    _columns: dict[object, _Column] = field(default_factory=dict)
+    _columns: dict[object, Column] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.A)
@@ -69,6 +61,25 @@ class Batch:
         """The number of outputs."""
         return int(self.C.shape[1])
 
+    @property
+    def sizes(self) -> Mapping[str, tuple[int, int, int]]:
+        """These are n, m, p."""
+        return {"": (self.n, self.m, self.p)}
+
+    @property
+    def own(self) -> Mapping[str, Any]:  # type: ignore[override]
+        """A system has no quantities but those of a system."""
+        return {}
+
+    def matrix(self, subject: str, name: str) -> Integers:
+        """Return A, F, C or G of every system."""
+        found: Integers = getattr(self, name)
+        return found
+
+    def case(self, index: int) -> ResidualSystem:
+        """Return one of the systems."""
+        return self.system(index)
+
     def system(self, index: int) -> ResidualSystem:
         """Return one of the systems, as an exact one."""
         tables = [part[index].tolist() for part in (self.A, self.F, self.C, self.G)]
@@ -83,19 +94,7 @@ class Batch:
             raise Overflow("numbers over a denominator")
         if self.prime is not None and key in (names.CHARACTERISTIC, names.MINORS):
             raise InvalidInput(f"got a question about the unit circle over GF({self.prime}), expected one over Q")
-        if key not in self._columns:
-            self._columns[key] = _Column(np.zeros(len(self), dtype=bool), np.zeros((len(self), 0), dtype=np.int64))
-        column = self._columns[key]
-        missing = rows[~column.done[rows]]
-        if len(missing):
-            found = (find or FIND[str(key)])(self.part(missing))
-            if column.values.shape[1] < found.shape[1]:
-                wider = np.zeros((len(self), found.shape[1]), dtype=np.int64)
-                wider[:, : column.values.shape[1]] = column.values
-                column.values = wider
-            column.values[missing, : found.shape[1]] = found
-            column.done[missing] = True
-        return column.values[rows]
+        return self.kept(key, rows, find or FIND[str(key)])
 
     def part(self, rows: Chosen) -> Batch:
         """Return the batch of these rows alone, with nothing known of it; the batch itself where these are all."""
@@ -107,11 +106,6 @@ class Batch:
         """Return (A', C', F', G')."""
         A, F, C, G = (np.swapaxes(part, 1, 2) for part in (self.A, self.C, self.F, self.G))
         return Batch(A, F, C, G, self.prime, self.denominator)
-
-    def product(self, left: Integers, right: Integers) -> Integers:
-        """Return the products of matrices, reduced over GF(prime). Raises Overflow."""
-        found = times(left, right)
-        return found if self.prime is None else found % self.prime
 
 
 def observed(batch: Batch, s: int) -> Integers:

@@ -1,6 +1,7 @@
 """These are the ranks of built matrices of one system, which quantities are made of when many systems are looked at together.
 
     Ranks       rank O_s, T_s, [O_s T_s], ... of one system; numbers that are not there yet are asked for by raising Wanted
+    Numbers     what is known of a case: the ranks of each of its systems, and what is asked of it as a whole
     Wanted      what is to be found first, for all systems that need it
     FAMILIES    the names: the matrices are described in `batches`
 
@@ -29,18 +30,23 @@ class Wanted(Exception):
 
 @dataclass(frozen=True)
 class Ranks:
-    """The ranks of one system with n states, m faults, p outputs, as far as they are `known`: family -> numbers."""
+    """The ranks of one system with n states, m faults, p outputs, as far as they are `known`: family -> numbers.
+
+    Where the system is one of several, what is known of it has the key (`subject`, family).
+    """
 
     n: int
     m: int
     p: int
     known: Mapping[object, tuple[int, ...]]
+    subject: str = ""
 
     def table(self, family: str) -> tuple[int, ...]:
         """Return the numbers of a family. Raises Wanted."""
-        if family not in self.known:
-            raise Wanted(family)
-        return self.known[family]
+        key = (self.subject, family) if self.subject else family
+        if key not in self.known:
+            raise Wanted(key)
+        return self.known[key]
 
     def at(self, family: str, s: int) -> int:
         """Return the rank at s >= 0, any s."""
@@ -90,3 +96,22 @@ class Ranks:
     def settled(self, family: str) -> int:
         """Return the least s from which on the rank stays as it is at n."""
         return next(s for s in range(self.n + 1) if self.at(family, s) == self.at(family, self.n))
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """The numbers of one case, as far as they are `known`; `sizes` are (n, m, p) of each of its systems, `samples` those of a record."""
+
+    sizes: Mapping[str, tuple[int, int, int]]
+    known: Mapping[object, tuple[int, ...]]
+    samples: int = 0
+
+    def of(self, subject: str) -> Ranks:
+        """Return the ranks of one of the systems."""
+        return Ranks(*self.sizes[subject], self.known, subject)
+
+    def table(self, key: object) -> tuple[int, ...]:
+        """Return the numbers of a family of the whole. Raises Wanted."""
+        if key not in self.known:
+            raise Wanted(key)
+        return self.known[key]

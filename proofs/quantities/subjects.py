@@ -13,6 +13,7 @@ from functools import cached_property
 
 from ...exact.algebra.matrices import Matrix
 from ...exact.algebra.polynomials import Poly
+from ...exact.structure.fault_columns import FaultSpace, fault_space
 from ...exact.structure.inversion import delay_known_state, delay_unknown_state, largest_output_nulling
 from ...exact.structure.kernel_rows import KernelRepresentation, kernel_representation
 from ...exact.structure.pencil import infinite_zero_orders, invariant_zero_polynomial
@@ -55,6 +56,11 @@ class Subject:
     def reached(self) -> KernelRepresentation:
         """This has the rank of [F, AF, ..., A^(s-1) F] for every s; its lag is the controllability index."""
         return kernel_representation(without_faults(self.transposed))
+
+    @cached_property
+    def fault_space(self) -> FaultSpace:
+        """These are all solutions of problem (11), with their reduced basis."""
+        return fault_space(self.kernel)
 
     @cached_property
     def infinite_zero_orders(self) -> tuple[int, ...]:

@@ -84,7 +84,7 @@ def test_one_claim_of_a_file(file: Path, capsys: pytest.CaptureFixture[str]) -> 
     [
         ("[claim.x]\nconclusion = 'lagg <= n'", "claims.toml: line 2: claim.x.conclusion: column 1: got 'lagg'"),
         ("[claim.x]\nconclusion = 'left_minimal_indices[0] >= 0'", "guard it with len(left_minimal_indices)"),
-        ("[claim.x]\nconclusion = 'n == 1'\nabout = 'pair'", "which this version does not decide yet"),
+        ("[claim.x]\nconclusion = 'n == 1'\nabout = 'recrod'", "the nearest is record"),
         ("[claim.x]\nconclusion = 'n == 1'\nbox = {n = [1, 1], total = 2}", "got an empty box"),
         ("", "got an empty file, expected TOML"),
         ("\xff", "UTF-8"),

@@ -28,7 +28,7 @@ from faultspace.proofs.brought.boxes import Box, height, stretches
 from faultspace.proofs.brought.claim_files import read_claims
 from faultspace.proofs.brought.claiming import decide_claims, explain
 from faultspace.proofs.brought.claims import Answered, Claim, make_claim
-from faultspace.proofs.brought.known_systems import smaller
+from faultspace.proofs.brought.known_cases import smaller
 from faultspace.proofs.language.evaluating import Exactly, evaluate
 from faultspace.proofs.quantities.registry import Subject, quantities
 from faultspace.proofs.trust.structure_certificates import accept
@@ -198,7 +198,7 @@ def test_a_hypothesis_that_is_not_needed_is_not_called_needed() -> None:
     answer = decided("all(gap(s) == m for s in windows(n))", "left_invertible", "observable")
     assert answer.verdict == Answered.NOT_REFUTED and answer.dropped is not None
     needed, unneeded = answer.dropped
-    assert needed.verdict == Answered.REFUTED and needed.system is not None and "needed" in needed.words
+    assert needed.verdict == Answered.REFUTED and needed.case is not None and "needed" in needed.words
     assert unneeded.verdict == Answered.NOT_REFUTED and "not shown to be needed" in unneeded.words
 
 
@@ -228,7 +228,8 @@ def test_a_counterexample_outside_the_box_is_made_smaller() -> None:
 
 def test_making_smaller_ends_where_no_step_fails() -> None:
     start = ResidualSystem.of([[3, 2], ["1/2", 5]], [[1, 2], [3, 4]], [[5, 6], [7, 8]], [[0, 9], [1, "7/3"]])
-    end = smaller(start, lambda one: one.n >= 1 and not one.A.is_zero())
+    end = smaller(start, lambda one: isinstance(one, ResidualSystem) and one.n >= 1 and not one.A.is_zero())
+    assert isinstance(end, ResidualSystem)
     assert (end.n, end.m, end.p) == (1, 0, 0) and end.A[0, 0] == 1
 
 
@@ -321,8 +322,8 @@ BAD = [
     ("[claim.x]\nhypotheses = [\n  'n == 1',\n  'm',\n]\nconclusion = 'n == 1'", "line 4: claim.x.hypotheses[1]: column 1: got 'm'"),
     ("[claim.x]\nhypotheses = [{that = 'n == 1', name = 'y'}]\nconclusion = 'n == 1'", "line 2: claim.x.hypotheses[0]: got"),
     ("[claim.x]\nhypotheses = 'n == 1'\nconclusion = 'n == 1'", "expected a list of at most"),
-    ("[claim.x]\nconclusion = 'n == 1'\nabout = 'pairs'", "expected one of system, pair"),
-    ("[claim.x]\nconclusion = 'n == 1'\nabout = 'record'", "line 3: claim.x.about: got 'record', which this version does not decide yet"),
+    ("[claim.x]\nconclusion = 'n == 1'\nabout = 'pairs'", "line 3: claim.x.about: got 'pairs'; the nearest is pair"),
+    ("[claim.x]\nconclusion = 'n == 1'\nabout = 'recrod'", "line 3: claim.x.about: got 'recrod'; the nearest is record"),
     ("[claim.x]\nconclusion = 'n == 1'\nfields = ['Q(a)']", "number fields are not searched yet"),
     ("[claim.x]\nconclusion = 'n == 1'\nfields = ['GF(4)']", "with a prime q"),
     ("[claim.x]\nconclusion = 'n == 1'\nfields = ['Q', 'Q']", "none twice"),

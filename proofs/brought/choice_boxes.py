@@ -1,0 +1,162 @@
+"""A box of small systems with the choices P of their fault columns, gone through in order.
+
+    ChoiceBox     bounds on n, m, p of the system and on k, the number of columns of P; the entries of P are those of the box, too
+
+The order is by n + m + p, then k, then n, m, p, then the largest numerator or denominator of an entry, then by the entries of A, F, C, G
+and P, by rows. P is n_z x k, with the n_z of the system. Another order or sign of the states or outputs moves the reduced basis of the
+fault space, by which P is written; of the faults it does not, and neither does one of the columns of P: of these one is looked at.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+from math import lcm
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...exact.algebra.fields import PrimeField
+from ...exact.structure.fault_columns import FaultSpace, fault_space
+from ...exact.structure.kernel_rows import kernel_representation
+from ..language.vocabularies import CHOICE
+from ..quantities.batches import Batch
+from ..quantities.choices import Choices
+from ..quantities.elimination import Integers
+from .boxes import AT_ONCE, LARGEST_TABLE, Box, Sizes, Stretch, changes, digits_of, first_of_orbits, height, systems_in_order
+
+SYSTEMS_AT_ONCE = 2000
+
+
+@dataclass(frozen=True)
+class ChoiceBox(Box):
+    """All choices whose system is in the box and whose P has k columns, `k` being the first and the last number of them."""
+
+    k: tuple[int, int] = (1, 2)
+
+    @property
+    def about(self) -> str:
+        """What the cases of the box are."""
+        return CHOICE
+
+    @property
+    def noun(self) -> str:
+        """What they are called."""
+        return "choices"
+
+    def __str__(self) -> str:
+        return f"{super().__str__()}, {self.k[0]} <= k <= {self.k[1]}"
+
+    def sizes(self) -> list[Sizes]:
+        """Return the (n, m, p, k) of the box in order."""
+        found = product(super().sizes(), range(self.k[0], self.k[1] + 1))
+        return [(*one, k) for one, k in sorted(found, key=lambda one: (sum(one[0]), one[1], one[0]))]
+
+    def count(self, *sizes: int) -> int:
+        """Return how many choices of these sizes there can be: as many as if all columns solved problem (11)."""
+        n, m, p, k = sizes
+        found: int = super().count(n, m, p) * len(self.entries) ** ((n + p) * k)
+        return found
+
+    def stretches(self, sizes: Sizes, *, reduced: bool) -> Iterator[Stretch]:
+        """Yield all choices of these sizes in order; where `reduced`, fewer that stand for all. Raises OverflowError for too many."""
+        for level in sorted({height(x) for x in self.entries}):
+            yield from self._level(sizes, level, reduced)
+
+    def _level(self, sizes: Sizes, level: int, reduced: bool) -> Iterator[Stretch]:
+        entries = [x for x in self.entries if height(x) <= level]
+        n, m, p, k = sizes
+        states, faults, outputs = changes(self, (n, m, p), reduced=reduced)
+        columns = changes(self, (k,), reduced=reduced)[0]
+        tables: dict[int, tuple[Integers, Integers]] = {}
+        for stretch in systems_in_order(self, (n, m, p), entries, np.ones(len(entries), dtype=bool), (states[:1], faults, outputs[:1])):
+            order = np.argsort(stretch.places, kind="stable")
+            for some in np.array_split(order, 1 + len(order) // SYSTEMS_AT_ONCE):
+                if not len(some):
+                    continue
+                first, weights = stretch.batch.part(some), stretch.weights[some]
+                spaces = [fault_space(kernel_representation(first.system(i))) for i in range(len(first))]
+                for one in {space.dimension for space in spaces} - set(tables):
+                    tables[one] = _tables(entries, one, k, columns)
+                yield from _kept(_portions(first, spaces, tables, k), weights, entries, level)
+
+
+def _kept(portions: Iterator[tuple[Choices, Integers]], weights: Integers, entries: list[Fraction], level: int) -> Iterator[Stretch]:
+    """Yield those with an entry of this height."""
+    for chosen, times in portions:
+        keep = _high(chosen, entries, level)
+        if keep.any():
+            kept = chosen if keep.all() else chosen.part(np.flatnonzero(keep))
+            yield Stretch(kept, np.arange(len(kept)), (weights[chosen.firsts] * times)[keep])
+
+
+def _tables(entries: list[Fraction], n_z: int, k: int, columns: list[Integers]) -> tuple[Integers, Integers]:
+    """Return all P (n_z x k) in order, times the common denominator of the entries, with the number of those that each stands for."""
+    base, length = len(entries), n_z * k
+    if base**length > LARGEST_TABLE:
+        raise OverflowError
+    powers = np.array([base**i for i in reversed(range(length))], dtype=np.int64).reshape(n_z, k)
+    found, _, fixed = first_of_orbits(digits_of(base, length), [(powers - powers @ V).ravel() for V in columns])
+    scale = lcm(*(x.denominator for x in entries))
+    values = np.array([int(x * scale) for x in entries], dtype=np.int64)
+    return values[(found + (base - 1)) // 2].reshape(len(found), n_z, k), len(columns) // fixed
+
+
+def _portions(
+    first: Batch, spaces: list[FaultSpace], tables: dict[int, tuple[Integers, Integers]], k: int
+) -> Iterator[tuple[Choices, Integers]]:
+    """Yield the choices of neighbouring systems, with the numbers of those that each P stands for."""
+    portion: list[int] = []
+    held = 0
+    for i, space in enumerate(spaces):
+        portion.append(i)
+        held += len(tables[space.dimension][1])
+        if held >= AT_ONCE or i + 1 == len(spaces):
+            yield _choices(first, spaces, tables, portion, k)
+            portion, held = [], 0
+
+
+def _choices(
+    first: Batch, spaces: list[FaultSpace], tables: dict[int, tuple[Integers, Integers]], portion: list[int], k: int
+) -> tuple[Choices, Integers]:
+    n, p = first.n, first.p
+    firsts, P, scales, F, G, times = [], [], [], [], [], []
+    for i in portion:
+        listed, weights = tables[spaces[i].dimension]
+        basis, scale = _integers(spaces[i])
+        columns = basis.T @ listed
+        if first.prime is not None:
+            columns %= first.prime
+        firsts.append(np.full(len(listed), i))
+        P.append(np.pad(listed, ((0, 0), (0, n + p - listed.shape[1]), (0, 0))))
+        scales.append(np.full(len(listed), scale))
+        F.append(columns[:, :n])
+        G.append(columns[:, n:])
+        times.append(weights)
+    which = np.concatenate(firsts)
+    second = Batch(first.A[which], np.concatenate(F), first.C[which], np.concatenate(G), first.prime, first.denominator)
+    heights = np.array([space.dimension for space in spaces])[which]
+    return Choices(first, which, second, np.concatenate(P), heights, np.concatenate(scales)), np.concatenate(times)
+
+
+def _integers(space: FaultSpace) -> tuple[Integers, int]:
+    """Return the rows of the reduced basis times their common denominator, and that."""
+    rows = space.basis.elements()
+    if isinstance(space.system.field, PrimeField):
+        return np.array([[int(x) for x in row] for row in rows], dtype=np.int64).reshape(space.basis.shape), 1
+    scale = lcm(*(int(x.q) for row in rows for x in row))
+    return np.array([[int(x * scale) for x in row] for row in rows], dtype=np.int64).reshape(space.basis.shape), scale
+
+
+def _high(choices: Choices, entries: list[Fraction], level: int) -> NDArray[np.bool_]:
+    """Return which choices have an entry of this height in the system or in P; the others came with a lower one."""
+    if all(height(x) == level for x in entries):
+        return np.ones(len(choices), dtype=bool)
+    scale = lcm(*(x.denominator for x in entries))
+    high = [int(x * scale) for x in entries if height(x) == level]
+    found: NDArray[np.bool_] = np.asarray(np.isin(choices.P, high).any(axis=(1, 2)))
+    for name in "AFCG":
+        found |= np.isin(choices.matrix("", name), high).any(axis=(1, 2))
+    return found

@@ -1,0 +1,209 @@
+"""The cases outside the box that every claim is tried on, and how one of them that fails is made smaller.
+
+    known_cases     those of the corpus, and of the families that the adversary attacks with, of what the claims of a box are about
+    smaller         a case that still fails, with fewer states, faults, outputs and simpler entries, as far as single steps lead
+
+A known system is one for every claim about systems. Pairs of the corpus are shift registers, which differ late, and small known systems and
+their relatives: the same by feedback and another basis, changed in an entry, with a state more. Those of the adversary are its systems with
+other faults (Fhat P, Ghat P) that explain n samples, and P small integers from a seed. Choices are those of small known systems with P that
+are generic, sparse, of unit columns, rank-deficient, and, where there is one, a P by which the normal rank is lost. Records are
+those of small known systems with their faults as inputs, short ones and such as are long enough to excite.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations
+
+from ...exact.algebra.fields import QQ, Field, PrimeField
+from ...exact.algebra.matrices import Matrix
+from ...exact.pairs.witnesses import BadPair, bad_pair
+from ...exact.structure.fault_columns import fault_space, fault_space_dimension, with_pair
+from ...exact.system.systems import FaultySystem, ResidualSystem
+from ..evidence.alternatives import relatives, small_columns
+from ..evidence.families import shift_registers
+from ..evidence.pairs_by_polynomial import pencil_of
+from ..language.vocabularies import CHOICE, ONE_A_AND_C, RECORD, SYSTEM
+from ..quantities.cases import Case, Choice, ChoiceSubject, Known, Pair, PairSubject, Record, RecordSubject
+from ..quantities.subjects import Subject
+from .boxes import Box
+from .known_systems import CORPUS, known_systems, over, simpler_matrices, steps, with_matrix, without_fault, without_output, without_state
+
+LARGEST_STATES, REGISTERS, CHOICES, SEED = 3, 6, 2, 1
+
+
+@dataclass(frozen=True)
+class KnownCase:
+    """`origin` is the corpus or the adversary; `subject` keeps what is found out about the case."""
+
+    origin: str
+    case: Case
+    subject: Known
+
+
+def known_cases(box: Box) -> tuple[KnownCase, ...]:
+    """Return them over the field of the box."""
+    if box.about == SYSTEM:
+        return tuple(KnownCase(one.origin, one.subject.system, one.subject) for one in known_systems(box.prime))
+    if box.about == CHOICE:
+        return _choices(box.prime)
+    if box.about == RECORD:
+        return _records(box.prime)
+    return _pairs(box.prime, box.about == ONE_A_AND_C)
+
+
+def smaller(case: Case, fails: Callable[[Case], bool]) -> Case:
+    """Return a case that fails and that no single step makes smaller: one row and column less, or one entry 0, 1, -1 or nearer to 0."""
+    while True:
+        found = next((one for one in _smaller(case) if fails(one)), None)
+        if found is None:
+            return case
+        case = found
+
+
+def _smaller(case: Case) -> Iterator[Case]:
+    if isinstance(case, ResidualSystem):
+        return steps(case)
+    if isinstance(case, Pair):
+        return _pair_steps(case)
+    return _choice_steps(case) if isinstance(case, Choice) else _record_steps(case)
+
+
+@lru_cache(maxsize=4)
+def _records(prime: int | None) -> tuple[KnownCase, ...]:
+    """Return known systems with their faults as inputs, some under a signal that excites, some under one that does not."""
+    found = []
+    for known in known_systems(prime):
+        system = known.subject.system
+        if system.n > LARGEST_STATES:
+            continue
+        rng, field = random.Random(str(system)), system.field
+        without = system.with_faults(Matrix.zero(field, system.n, 0), Matrix.zero(field, system.p, 0))
+        driven, subject = FaultySystem(without, system.F, system.G), Subject(without)
+        for length in (rng.randint(1, 6), (system.m + 1) * (system.n + 2) + rng.randint(0, 3)):
+            density = rng.choice((0.2, 0.6, 1.0))
+            u = [[rng.randint(-2, 2) if rng.random() < density else 0 for _ in range(system.m)] for _ in range(length)]
+            x0 = [[rng.choice((-1, 0, 1))] for _ in range(system.n)]
+            record = Record(driven, Matrix.of(u, field, shape=(length, system.m)), Matrix.of(x0, field, shape=(system.n, 1)))
+            found.append(KnownCase(known.origin, record, RecordSubject(subject, record)))
+    return tuple(found)
+
+
+def _record_steps(record: Record) -> Iterator[Record]:
+    """Yield the records with a state, output, input, fault or sample less, or a simpler entry."""
+    system, u, x0 = record.system, record.u, record.x0
+    residual, B, D = system.residual, system.B, system.D
+    for k in range(system.n):
+        rest = [i for i in range(system.n) if i != k]
+        yield Record(FaultySystem(without_state(residual, k), B.rows(rest), D), u, x0.rows(rest))
+    for k in range(system.m):
+        yield Record(FaultySystem(without_fault(residual, k), B, D), u, x0)
+    for k in range(system.p):
+        rest = [i for i in range(system.p) if i != k]
+        yield Record(FaultySystem(without_output(residual, k), B, D.rows(rest)), u, x0)
+    for k in range(system.nu):
+        rest = [j for j in range(system.nu) if j != k]
+        yield Record(FaultySystem(residual, B.columns(rest), D.columns(rest)), u.columns(rest), x0)
+    for kept in (range(u.nrows - 1), range(1, u.nrows)) if u.nrows else ():
+        yield Record(system, u.rows(kept), x0)
+    for name in "AFCG":
+        for matrix in simpler_matrices(getattr(residual, name)):
+            yield Record(FaultySystem(with_matrix(residual, name, matrix), B, D), u, x0)
+    for matrix in simpler_matrices(B):
+        yield Record(FaultySystem(residual, matrix, D), u, x0)
+    for matrix in simpler_matrices(D):
+        yield Record(FaultySystem(residual, B, matrix), u, x0)
+    for matrix in simpler_matrices(u):
+        yield Record(system, matrix, x0)
+    for matrix in simpler_matrices(x0):
+        yield Record(system, u, matrix)
+
+
+@lru_cache(maxsize=4)
+def _choices(prime: int | None) -> tuple[KnownCase, ...]:
+    found = []
+    for known in known_systems(prime):
+        system = known.subject.system
+        if system.n > LARGEST_STATES:
+            continue
+        rng = random.Random(str(system))
+        pencil = pencil_of(system)
+        listed = [P for k in sorted({system.m, pencil.columns}) for P in small_columns(pencil.n_z, k, rng)]
+        bad = bad_pair(pencil)
+        if isinstance(bad, BadPair):
+            listed.append(bad.verdict.P)
+        for P in dict.fromkeys(listed):
+            P = Matrix.of(P.elements(), system.field, shape=P.shape)
+            found.append(KnownCase(known.origin, Choice(system, P), ChoiceSubject(known.subject, P)))
+    return tuple(found)
+
+
+def _choice_steps(choice: Choice) -> Iterator[Choice]:
+    """Yield the choices with a column of P less, a simpler entry of it, or a smaller system; where n_z is less then, a row less."""
+    system, P = choice.system, choice.P
+    for k in range(P.ncols):
+        yield Choice(system, P.columns(j for j in range(P.ncols) if j != k))
+    for other in steps(system):
+        n_z = fault_space_dimension(other)
+        if n_z <= P.nrows:
+            for rows in combinations(range(P.nrows), n_z):
+                yield Choice(other, P.rows(rows))
+    for simpler in simpler_matrices(P):
+        yield Choice(system, simpler)
+
+
+@lru_cache(maxsize=8)
+def _pairs(prime: int | None, one_A_and_C: bool) -> tuple[KnownCase, ...]:
+    found = []
+    for origin, first, second in _listed(QQ if prime is None else PrimeField(prime)):
+        if not one_A_and_C or (first.system.A, first.system.C) == (second.system.A, second.system.C):
+            case = Pair(first.system, second.system, one_A_and_C)
+            found.append(KnownCase(origin, case, PairSubject(first, second)))
+    return tuple(found)
+
+
+def _listed(field: Field) -> Iterator[tuple[str, Subject, Subject]]:
+    for n in range(1, REGISTERS + 1):
+        idle, driven = (Subject(over(field, one)) for one in shift_registers(n))
+        yield CORPUS, idle, driven
+        yield CORPUS, driven, idle
+    for known in known_systems(None if field == QQ else field.characteristic):
+        system = known.subject.system
+        if system.n > LARGEST_STATES:
+            continue
+        rng = random.Random(str(system))
+        others = relatives(system, rng) if known.origin == CORPUS else _others(known.subject, rng)
+        for other in others:
+            yield known.origin, known.subject, Subject(other)
+
+
+def _others(subject: Subject, rng: random.Random) -> Iterator[ResidualSystem]:
+    """Yield the system with faults that explain n samples as its own do, a fault more or less among them."""
+    system = subject.system
+    space = fault_space(subject.kernel, system.n)
+    for _ in range(CHOICES):
+        columns = max(system.m + rng.choice((-1, 0, 0, 1)), 0)
+        entries = [[rng.randint(-1, 1) for _ in range(columns)] for _ in range(space.dimension)]
+        yield with_pair(space, Matrix.of(entries, system.field, shape=(space.dimension, columns)))
+
+
+def _pair_steps(pair: Pair) -> Iterator[Pair]:
+    """Yield the pairs with a state, a fault, an output or an entry less; of a common (A, C) in both systems at once."""
+    one, other, shared = pair.first, pair.second, pair.one_A_and_C
+    if shared:
+        for k in range(one.n):
+            yield Pair(without_state(one, k), without_state(other, k), True)
+        for name in "AC":
+            for matrix in simpler_matrices(getattr(one, name)):
+                yield Pair(with_matrix(one, name, matrix), with_matrix(other, name, matrix), True)
+    for k in range(one.p):
+        yield Pair(without_output(one, k), without_output(other, k), shared)
+    for first in steps(one):
+        if first.p == one.p and (not shared or (first.A, first.C) == (one.A, one.C)):
+            yield Pair(first, other, shared)
+    for second in steps(other):
+        if second.p == other.p and (not shared or (second.A, second.C) == (other.A, other.C)):
+            yield Pair(one, second, shared)

@@ -1,0 +1,90 @@
+"""Many cases of the same sizes, one a row, and what is found out about all of them together.
+
+Many         systems (`Batch`), pairs (`Pairs`): what the language asks of them when it decides many at once
+column       the numbers of a family for some of the cases, found once
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .cases import Case
+from .elimination import Integers, Overflow, times
+
+Chosen = NDArray[np.intp]
+
+
+@dataclass
+class Column:
+    """The numbers of a family, and for which cases they have been found."""
+
+    done: NDArray[np.bool_]
+    values: Integers
+
+
+class Many(ABC):
+    """These are cases over Q (`prime` None) or GF(prime), of integers over one `denominator`; `own` are the quantities of the whole."""
+
+    prime: int | None
+    denominator: int
+    own: Mapping[str, Any]
+    _columns: dict[object, Column]
+
+    @abstractmethod
+    def __len__(self) -> int:
+        """The number of cases."""
+
+    @property
+    @abstractmethod
+    def sizes(self) -> Mapping[str, tuple[int, int, int]]:
+        """These are (n, m, p) of each system of a case, which all cases share."""
+
+    @property
+    def samples(self) -> int:
+        """The number of samples of each case, where it has some."""
+        return 0
+
+    @abstractmethod
+    def case(self, index: int) -> Case:
+        """Return one of the cases, as an exact one."""
+
+    @abstractmethod
+    def matrix(self, subject: str, name: str) -> Integers:
+        """Return a matrix of every case (N, rows, columns)."""
+
+    @abstractmethod
+    def part(self, rows: Chosen) -> Self:
+        """Return the cases of these rows alone."""
+
+    @abstractmethod
+    def column(self, key: Any, rows: Chosen, find: Callable[[Any], Integers] | None = None) -> Integers:
+        """Return the numbers (len(rows), width) of a family, or of what `find` finds, for the cases of these rows. Raises Overflow."""
+
+    def product(self, left: Integers, right: Integers) -> Integers:
+        """Return the products of matrices, reduced over GF(prime). Raises Overflow."""
+        found = times(left, right)
+        return found if self.prime is None else found % self.prime
+
+    def kept(self, key: object, rows: Chosen, find: Callable[[Self], Integers]) -> Integers:
+        """Return what `find` finds for these rows, which is found once; narrower rows are filled up with zeros. Raises Overflow."""
+        if self.denominator != 1:
+            raise Overflow("numbers over a denominator")
+        if key not in self._columns:
+            self._columns[key] = Column(np.zeros(len(self), dtype=bool), np.zeros((len(self), 0), dtype=np.int64))
+        column = self._columns[key]
+        missing = rows[~column.done[rows]]
+        if len(missing):
+            found = find(self.part(missing))
+            if column.values.shape[1] < found.shape[1]:
+                wider = np.zeros((len(self), found.shape[1]), dtype=np.int64)
+                wider[:, : column.values.shape[1]] = column.values
+                column.values = wider
+            column.values[missing, : found.shape[1]] = found
+            column.done[missing] = True
+        return column.values[rows]

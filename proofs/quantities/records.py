@@ -1,0 +1,230 @@
+"""What claims about a record can speak of: a system with inputs, driven by a finite u from x0 without a fault. Source: [WRMM05].
+
+    OF_A_RECORD     the quantities of a record, by their names
+    Records         many records of the same lengths at once
+    INPUT, BOTH, STATE      the families: ranks of the Hankel matrices of u, of [u; y], and of [X; U_k], each with its k
+
+A Hankel matrix with k block rows has N - k + 1 columns, k = 0, ..., N; beyond N it has none, and its rank is 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from ...exact.algebra.matrices import Matrix, beside, rank, stacked
+from ...exact.structure.signals import excitation_matrix, hankel
+from ...exact.system.systems import FaultySystem, ResidualSystem
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate
+from .batches import Batch
+from .cases import Record, RecordSubject
+from .elimination import Integers, leading_ranks
+from .many import Chosen, Column, Many
+from .ranks import Numbers
+from .registry import Kind, Quantity
+
+INPUT, BOTH, STATE = "Hankel of u", "Hankel of [u; y]", "[X; U]"
+
+
+@dataclass
+class Records(Many):
+    """Record i is the system `firsts[i]` of `first`, with (A, B, C, D) as number `seconds[i]` of `inputs`, and u[i] (N, nu), x0[i] (n)."""
+
+    first: Batch
+    firsts: Chosen
+    inputs: Batch
+    seconds: Chosen
+    u: Integers
+    x0: Integers
+    _columns: dict[object, Column] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.firsts)
+
+    @property
+    def own(self) -> Mapping[str, Any]:  # type: ignore[override]
+        """These are the quantities of a record."""
+        return OF_A_RECORD
+
+    @property
+    def prime(self) -> int | None:  # type: ignore[override]
+        """This is that of the systems."""
+        return self.first.prime
+
+    @property
+    def denominator(self) -> int:  # type: ignore[override]
+        """This is that of all entries."""
+        return self.first.denominator
+
+    @property
+    def sizes(self) -> Mapping[str, tuple[int, int, int]]:
+        """These are n, m, p of the system, and n, nu, p of (A, B, C, D)."""
+        return {name: (one.n, one.m, one.p) for name, one in (("", self.first), ("inputs", self.inputs))}
+
+    @property
+    def samples(self) -> int:
+        """The number of samples."""
+        return int(self.u.shape[1])
+
+    def case(self, index: int) -> Record:
+        """Return one of the records."""
+        system, inputs = self.first.system(int(self.firsts[index])), self.inputs.system(int(self.seconds[index]))
+
+        def exactly(table: Integers) -> Matrix:
+            rows = [[Fraction(int(x), self.denominator) for x in row] for row in table]
+            whole = rows if self.prime is None else [[int(x) for x in row] for row in table]
+            return Matrix.of(whole, system.field, shape=table.shape)
+
+        return Record(FaultySystem(system, inputs.F, inputs.G), exactly(self.u[index]), exactly(self.x0[index][:, None]))
+
+    def matrix(self, subject: str, name: str) -> Integers:
+        """Return A, F, C or G of one of the two systems, B, D, u or x0."""
+        if subject or name in ("B", "D"):
+            return self.inputs.matrix("", {"B": "F", "D": "G"}.get(name, name))[self.seconds]
+        if name in ("u", "x0"):
+            return self.u if name == "u" else self.x0[:, :, None]
+        return self.first.matrix("", name)[self.firsts]
+
+    def part(self, rows: Chosen) -> Records:
+        """Return the records of these rows; what is known of the systems stays known."""
+        return Records(self.first, self.firsts[rows], self.inputs, self.seconds[rows], self.u[rows], self.x0[rows])
+
+    def column(self, key: Any, rows: Chosen, find: Callable[[Any], Integers] | None = None) -> Integers:
+        """Return the numbers of a family of one of the systems, of the data, or of what `find` finds. Raises Overflow."""
+        if find is not None:
+            return self.kept(key, rows, find)
+        if isinstance(key, tuple) and key[0] in DATA:
+            family, k = key
+            return self.kept(key, rows, lambda part: leading_ranks(DATA[family](part, k), part.prime)[:, -1:])
+        batch, places, name = (self.inputs, self.seconds, key[1]) if isinstance(key, tuple) else (self.first, self.firsts, key)
+        distinct, which = np.unique(places[rows], return_inverse=True)
+        return batch.column(name, distinct)[which]
+
+    def trajectory(self) -> tuple[Integers, Integers]:
+        """Return the states x(0), ..., x(N) (cases, N + 1, n) and outputs (cases, N, p). Raises Overflow."""
+        A, B, C, D = (self.inputs.matrix("", name)[self.seconds] for name in "AFCG")
+        state, states, outputs = self.x0[:, :, None], [self.x0], []
+        for t in range(self.samples):
+            u = self.u[:, t, :, None]
+            outputs.append(self.sum(self.product(C, state), self.product(D, u))[:, :, 0])
+            state = self.sum(self.product(A, state), self.product(B, u))
+            states.append(state[:, :, 0])
+        empty = np.zeros((len(self), 0, self.inputs.p), dtype=np.int64)
+        return np.stack(states, axis=1), np.stack(outputs, axis=1) if outputs else empty
+
+    def sum(self, left: Integers, right: Integers) -> Integers:
+        """Return the sum, reduced over GF(prime); products that fit have sums that do."""
+        return left + right if self.prime is None else (left + right) % self.prime
+
+
+def _hankel(signal: Integers, k: int) -> Integers:
+    """Return the Hankel matrices (cases, q k, N - k + 1) of signals (cases, N, q)."""
+    count, samples, _ = signal.shape
+    columns = samples - k + 1
+    blocks = [np.swapaxes(signal[:, i : i + columns], 1, 2) for i in range(k)]
+    return np.concatenate([np.zeros((count, 0, columns), dtype=np.int64), *blocks], axis=1)
+
+
+def _of_both(records: Records, k: int) -> Integers:
+    return _hankel(np.concatenate([records.u, records.trajectory()[1]], axis=2), k)
+
+
+def _of_state(records: Records, k: int) -> Integers:
+    states = records.trajectory()[0][:, : records.samples - k + 1]
+    return np.concatenate([np.swapaxes(states, 1, 2), _hankel(records.u, k)], axis=1)
+
+
+DATA: dict[str, Callable[[Records, int], Integers]] = {INPUT: lambda one, k: _hankel(one.u, k), BOTH: _of_both, STATE: _of_state}
+
+
+def _from_data(family: str) -> Callable[[Numbers, int], int]:
+    return lambda numbers, k: numbers.table((family, k))[0] if k <= numbers.samples else 0
+
+
+def _exciting(numbers: Numbers, k: int) -> bool:
+    return k <= numbers.samples and _from_data(INPUT)(numbers, k) == numbers.sizes["inputs"][1] * k
+
+
+def _u_rank(record: RecordSubject, k: int) -> int:
+    return rank(hankel(record.u, k)) if k <= record.u.nrows else 0
+
+
+def _w_rank(record: RecordSubject, k: int) -> int:
+    return rank(hankel(beside(record.u, record.trajectory.residuals), k)) if k <= record.u.nrows else 0
+
+
+def _x_rank(record: RecordSubject, k: int) -> int:
+    return rank(excitation_matrix(record.trajectory, k)) if k <= record.u.nrows else 0
+
+
+def _u_borne(record: RecordSubject, k: int) -> list[Certificate]:
+    """Return the certificate of the rank, u being the output of the system without states and the feedthrough I; none beyond N."""
+    if k > record.u.nrows:
+        return []
+    field, nu = record.u.field, record.u.ncols
+    system = ResidualSystem(Matrix.zero(field, 0, 0), Matrix.zero(field, 0, nu), Matrix.zero(field, nu, 0), Matrix.identity(field, nu))
+    return [make.data_rank("residual-hankel", system, Matrix.zero(field, 0, 1), record.u, k)]
+
+
+def _w_borne(record: RecordSubject, k: int) -> list[Certificate]:
+    """Return the certificate of the rank, [u; y] being the output of (A, B, [0; C], [I; D])."""
+    if k > record.u.nrows:
+        return []
+    one = record.inputs.system
+    C = stacked(Matrix.zero(one.field, one.m, one.n), one.C)
+    G = stacked(Matrix.identity(one.field, one.m), one.G)
+    return [make.data_rank("residual-hankel", ResidualSystem(one.A, one.F, C, G), record.x0, record.u, k)]
+
+
+def _x_borne(record: RecordSubject, k: int) -> list[Certificate]:
+    if k > record.u.nrows:
+        return []
+    return [make.data_rank("excitation", record.inputs.system, record.x0, record.u, k)]
+
+
+_LISTED = (
+    Quantity("N", Kind.INTEGER, "the number of samples", lambda x: x.u.nrows, lambda r: r.samples, lambda x: []),
+    Quantity("nu", Kind.INTEGER, "the number of inputs", lambda x: x.u.ncols, lambda r: r.sizes["inputs"][1], lambda x: []),
+    Quantity(
+        "u_rank",
+        Kind.INTEGER,
+        "the rank of the Hankel matrix of u with s block rows; 0 beyond N",
+        _u_rank,
+        _from_data(INPUT),
+        _u_borne,
+        windowed=True,
+    ),
+    Quantity(
+        "w_rank",
+        Kind.INTEGER,
+        "the rank of the Hankel matrix of [u; y] with s block rows; 0 beyond N",
+        _w_rank,
+        _from_data(BOTH),
+        _w_borne,
+        windowed=True,
+    ),
+    Quantity(
+        "x_rank",
+        Kind.INTEGER,
+        "the rank of [X; U_s], X = [x(0), ..., x(N - s)]; 0 beyond N",
+        _x_rank,
+        _from_data(STATE),
+        _x_borne,
+        windowed=True,
+    ),
+    Quantity(
+        "exciting",
+        Kind.WORD,
+        "u is persistently exciting of order s: u_rank(s) = nu s, and s <= N",
+        lambda x, k: k <= x.u.nrows and _u_rank(x, k) == x.u.ncols * k,
+        _exciting,
+        _u_borne,
+        windowed=True,
+    ),
+)
+OF_A_RECORD = {one.name: one for one in _LISTED}
