@@ -25,7 +25,7 @@ from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, NOT_AS_EXPECTED
 from .reading_files import prepare_folder, read_system, read_text, write_json
 
-STYLES = {Answered.REFUTED: "red", Answered.NOT_REFUTED: "green", Answered.VACUOUS: "yellow"}
+STYLES = {Answered.REFUTED: "red", Answered.NOT_REFUTED: "green", Answered.PROVED: "green", Answered.VACUOUS: "yellow"}
 
 
 def run(name: str, *, only: list[str], ablation: bool, most: int | None, jobs: int, on: str | None, out: Path | None, as_json: bool) -> int:

@@ -21,6 +21,7 @@ from ..trust.structure_certificates import Certificate, Unprovable, accept, sha2
 from .answers import ClaimAnswer, Counterexample, Dropped, Tried
 from .claims import Answered, Claim
 from .known_systems import ADVERSARY, CORPUS, known_systems, smaller
+from .theorems import Proof, proof_of
 from .trying import Found, Question, must_have_a_value, search
 
 
@@ -60,6 +61,9 @@ def _over(claim: Claim, field: str, *, ablation: bool, most: int, jobs: int, pro
     elif known.failing is not None:
         counterexample = certified(claim, smaller(known.failing, lambda one: _fails(questions[0], one)), smallest=False)
     verdict = Answered.REFUTED if counterexample else _unrefuted(main, known)
+    proof = None if verdict == Answered.VACUOUS else proof_of(hypotheses, conclusion)
+    if proof is not None:
+        verdict = _proved(f"claim.{claim.id}", proof, None if counterexample is None else counterexample.system)
     asked = main.failing is None and known.failing is None
     listed = known_systems(box.prime) if main.failing is None else ()
     counts = {origin: sum(1 for one in listed if one.origin == origin) for origin in (CORPUS, ADVERSARY)}
@@ -78,7 +82,7 @@ def _over(claim: Claim, field: str, *, ablation: bool, most: int, jobs: int, pro
     if ablation:
         labels = [one.label for one in claim.hypotheses]
         dropped = tuple(
-            _without(labels[k], question, found, box.prime, asked=asked)
+            _without(f"claim.{claim.id} without {labels[k]}", labels[k], question, found, box.prime, asked=asked)
             for k, (question, found) in enumerate(zip(questions[1:], searched.found[1:], strict=True))
         )
     return ClaimAnswer(
@@ -93,6 +97,7 @@ def _over(claim: Claim, field: str, *, ablation: bool, most: int, jobs: int, pro
         tried=tried,
         dropped=dropped,
         expected=claim.expected.get(field),
+        proof=proof,
         seconds=time.perf_counter() - started,
     )
 
@@ -184,10 +189,20 @@ def _unrefuted(main: Found, known: _Known) -> Answered:
     return Answered.NOT_REFUTED if main.met or sum(known.met.values()) else Answered.VACUOUS
 
 
-def _without(label: str, question: Question, found: Found, prime: int | None, *, asked: bool) -> Dropped:
+def _proved(name: str, proof: Proof, failing: ResidualSystem | None) -> Answered:
+    """Return PROVED. Raises ArithmeticError where a system refutes what follows from theorems: one of the two is an error of ours."""
+    if failing is not None:
+        raise ArithmeticError(f"{name} {proof.words}, and yet {failing} refutes it")
+    return Answered.PROVED
+
+
+def _without(name: str, label: str, question: Question, found: Found, prime: int | None, *, asked: bool) -> Dropped:
     """Return what becomes of the claim without a hypothesis. Where it is refuted with it, `asked` is False, it is without it, too."""
     if not asked:
         return Dropped(label, Answered.REFUTED, found.failing, informs=False)
+    proof = proof_of(question.hypotheses, question.conclusion)
+    if proof is not None:
+        return Dropped(label, _proved(name, proof, found.failing), None, proof=proof)
     if found.failing is not None:
         return Dropped(label, Answered.REFUTED, found.failing)
     if found.undefined is not None:
