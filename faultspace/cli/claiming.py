@@ -28,7 +28,19 @@ from .reading_files import prepare_folder, read_system, read_text, write_json
 STYLES = {Answered.REFUTED: "red", Answered.NOT_REFUTED: "green", Answered.PROVED: "green", Answered.VACUOUS: "yellow"}
 
 
-def run(name: str, *, only: list[str], ablation: bool, most: int | None, jobs: int, on: str | None, out: Path | None, as_json: bool) -> int:
+def run(
+    name: str,
+    *,
+    only: list[str],
+    ablation: bool,
+    most: int | None,
+    jobs: int,
+    on: str | None,
+    out: Path | None,
+    as_json: bool,
+    cluster: str | None = None,
+    resume: Path | None = None,
+) -> int:
     """Decide the claims of a file, or explain them on the system `on`. The exit code is 1 where a verdict is not the expected one."""
     with in_file(name):
         claims = _chosen(read_claims(read_text(name)), only, "--claim")
@@ -37,7 +49,15 @@ def run(name: str, *, only: list[str], ablation: bool, most: int | None, jobs: i
     if out is not None:
         prepare_folder(out)
     with in_file(name), working(f"deciding {quote_path(name)}") as tell:
-        found = decide_claims(claims, ablation=ablation, most=MOST if most is None else most, jobs=jobs, on_progress=evenly(tell))
+        found = decide_claims(
+            claims,
+            ablation=ablation,
+            most=MOST if most is None else most,
+            jobs=jobs,
+            on_progress=evenly(tell),
+            cluster=cluster,
+            resume=resume,
+        )
     if as_json:
         print_json(found.to_json())
     else:

@@ -8,6 +8,7 @@ explain         what each part of a claim is on a given system
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from ...base.errors import InvalidInput, shorten
@@ -20,6 +21,7 @@ from ..quantities.registry import Subject
 from .answers import ClaimAnswers
 from .claims import Claim, make_claim
 from .deciding import decide
+from .kept import Kept, Sharing
 
 MOST = 10**9
 Predicate = Callable[[Asked], bool]
@@ -61,13 +63,25 @@ def claim(
 
 
 def decide_claims(
-    claims: Sequence[Claim], *, ablation: bool = True, most: int = MOST, jobs: int = 1, on_progress: Progress = silent
+    claims: Sequence[Claim],
+    *,
+    ablation: bool = True,
+    most: int = MOST,
+    jobs: int = 1,
+    on_progress: Progress = silent,
+    cluster: str | None = None,
+    resume: Path | None = None,
 ) -> ClaimAnswers:
-    """Return the verdict on each claim over each of its fields. Raises InvalidInput as `claim` does, and for numbers out of range."""
+    """Return the verdict on each claim over each of its fields. Raises InvalidInput as `claim` does, and for numbers out of range.
+
+    `cluster` is the address of a Dask scheduler, whose workers then go through large boxes; `resume` is a file that keeps what was gone
+    through, so that the same call goes on where it was stopped.
+    """
     for name, value in (("most", most), ("jobs", jobs)):
         if type(value) is not int or value < 1:
             raise InvalidInput(f"{name}: got {shorten(value)}, expected an integer >= 1")
-    answers = [one for given in claims for one in decide(given, ablation=ablation, most=most, jobs=jobs, progress=on_progress)]
+    sharing = Sharing(jobs, cluster, None if resume is None else Kept(resume))
+    answers = [one for given in claims for one in decide(given, ablation=ablation, most=most, progress=on_progress, sharing=sharing)]
     return ClaimAnswers(tuple(answers))
 
 

@@ -20,6 +20,7 @@ from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, Unprovable, accept, sha256
 from .answers import ClaimAnswer, Counterexample, Dropped, Tried
 from .claims import Answered, Claim
+from .kept import Sharing
 from .known_systems import ADVERSARY, CORPUS, known_systems, smaller
 from .theorems import Proof, proof_of
 from .trying import Found, Question, must_have_a_value, search
@@ -34,12 +35,15 @@ class _Known:
     undefined: str = ""
 
 
-def decide(claim: Claim, *, ablation: bool, most: int, jobs: int, progress: Progress) -> list[ClaimAnswer]:
+def decide(
+    claim: Claim, *, ablation: bool, most: int, jobs: int = 1, progress: Progress, sharing: Sharing | None = None
+) -> list[ClaimAnswer]:
     """Return the verdict over each field. Raises InvalidInput where the claim has no value on a system, and names it."""
-    return [_over(claim, field, ablation=ablation, most=most, jobs=jobs, progress=progress) for field in claim.boxes]
+    shared = sharing or Sharing(jobs)
+    return [_over(claim, field, ablation=ablation, most=most, sharing=shared, progress=progress) for field in claim.boxes]
 
 
-def _over(claim: Claim, field: str, *, ablation: bool, most: int, jobs: int, progress: Progress) -> ClaimAnswer:
+def _over(claim: Claim, field: str, *, ablation: bool, most: int, sharing: Sharing, progress: Progress) -> ClaimAnswer:
     started, box = time.perf_counter(), claim.boxes[field]
     *hypotheses, conclusion = claim.nodes
     questions = [Question(tuple(hypotheses), conclusion)]
@@ -47,7 +51,7 @@ def _over(claim: Claim, field: str, *, ablation: bool, most: int, jobs: int, pro
         questions += [
             Question(tuple(one for place, one in enumerate(hypotheses) if place != k), conclusion, k) for k in range(len(hypotheses))
         ]
-    searched = search(box, questions, most=most, jobs=jobs, progress=progress)
+    searched = search(box, questions, most=most, progress=progress, sharing=sharing)
     main = searched.found[0]
     if main.undefined is not None:
         raise must_have_a_value(main.undefined, f"claim.{claim.id}")

@@ -111,7 +111,7 @@ def derived(hypotheses: Sequence[Node], conclusion: Node, theorems: Sequence[The
         _look_for_windows(known, [*assumed, wanted])
         _saturate(known)
         found = _prove(wanted, known, 0)
-    except (Unknown, RecursionError, _TooMuch):
+    except (Unknown, KeyError, RecursionError, _TooMuch):
         return None
     return None if found is None else tuple(sorted(found))
 

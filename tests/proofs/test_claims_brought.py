@@ -162,7 +162,7 @@ def fails_phase(system: ResidualSystem) -> bool:
 
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_processes_change_nothing(jobs: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("faultspace.proofs.brought.trying.WORTH_SHARING", 10)
+    monkeypatch.setattr("faultspace.proofs.brought.kept.WORTH_SHARING", 10)
     answer = decided("delay_known <= n - nullity(G) or n == 1", "left_invertible", box={"total": 4}, jobs=jobs)
     assert found(answer).system == ResidualSystem.of([[-1, -1], [-1, -1]], [[-1], [0]], [[-1, -1]], [[0]]) or found(answer).smallest
     assert found(answer).system == found(decided("delay_known <= n - nullity(G) or n == 1", "left_invertible")).system
