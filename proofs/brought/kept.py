@@ -4,9 +4,9 @@
     Sharing      how the parts of a large box are shared out: processes, a Dask cluster, and a file that keeps them
     WORTH_SHARING, SYSTEMS_A_PART    from how many systems on a box is cut into parts, and how large these are
 
-A part is named by a digest of everything that it depends on: the questions, the box, the sizes, and which part it is. One in which something
-fails is not kept, but gone through again, which takes as long as it took to find it. The file is lines of JSON; one that a stop cut short,
-which can be the last alone, is left out.
+A part is named by a digest of everything that it depends on: the questions, the box, the sizes, and which part it is. One in which
+something fails is not kept, but gone through again, which takes as long as it took to find it. The file is lines of JSON; one that a stop
+cut short, which can be the last alone, is left out.
 """
 
 from __future__ import annotations

@@ -33,8 +33,8 @@ from ..language.nodes import Undefined as NoValue
 from ..quantities.batches import Batch
 from ..quantities.elimination import Integers
 from .boxes import Box, Share, Stretch
-from .known_systems import ADVERSARY, CORPUS, known_systems
 from .kept import WORTH_SHARING
+from .known_systems import ADVERSARY, CORPUS, known_systems
 from .trying import Undefined, must_have_a_value
 
 Place = tuple[int, int, int]  # the number of the sizes in the order of the box, of the stretch, of the system
