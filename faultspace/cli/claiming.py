@@ -42,6 +42,8 @@ def run(
     resume: Path | None = None,
 ) -> int:
     """Decide the claims of a file, or explain them on the system `on`. The exit code is 1 where a verdict is not the expected one."""
+    if cluster is not None and jobs > 1:
+        raise InvalidInput("--scheduler: got --jobs, too, expected one of the two: the cluster decides how many work")
     with in_file(name):
         claims = _chosen(read_claims(read_text(name)), only, "--claim")
     if on is not None:

@@ -172,8 +172,7 @@ def claim(
     ] = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the certificates there.", show_default=False)] = None,
     resume: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="Keep there what was gone through, and go on from it.", show_default=False),
+        Path | None, typer.Option(metavar="FILE", help="Keep there what was gone through, and go on from it.", show_default=False)
     ] = None,
     scheduler: Annotated[
         str | None, typer.Option(metavar="ADDRESS", help="Work on the Dask cluster with this scheduler instead.", show_default=False)
@@ -191,19 +190,8 @@ def claim(
         if only or explain is not None:
             raise InvalidInput("--sharpen: got --claim or --explain, too, expected --sharpen ID alone")
         return claiming.sharpen(file, sharpen, most=most, jobs=jobs, out=out, as_json=json)
-    if scheduler is not None and jobs > 1:
-        raise InvalidInput("--scheduler: got --jobs, too, expected one of the two: the cluster decides how many work")
     return claiming.run(
-        file,
-        only=only or [],
-        ablation=ablation,
-        most=most,
-        jobs=jobs,
-        on=explain,
-        out=out,
-        as_json=json,
-        cluster=scheduler,
-        resume=resume,
+        file, only=only or [], ablation=ablation, most=most, jobs=jobs, on=explain, out=out, as_json=json, cluster=scheduler, resume=resume
     )
 
 

@@ -55,7 +55,7 @@ def claim(
     >>> import faultspace as fs
     >>> found = fs.claim("all(gap(s) == m for s in windows(n))", hypotheses=["left_invertible"], box={"total": 4})
     >>> found.answers[0].verdict, found.answers[0].dropped[0].verdict
-    (<Answered.NOT_REFUTED: 'NOT REFUTED'>, <Answered.REFUTED: 'REFUTED'>)
+    (<Answered.PROVED: 'PROVED'>, <Answered.REFUTED: 'REFUTED'>)
     """
     given: dict[str, Any] = {"conclusion": conclusion, "hypotheses": list(hypotheses), "fields": list(fields)}
     given |= {"statement": statement, "source": source} | ({} if box is None else {"box": box})

@@ -33,7 +33,6 @@ from .normal_forms import (
     INFINITY,
     LENGTHS,
     AtMostZero,
-    Atom,
     Both,
     Each,
     Either,
@@ -41,22 +40,19 @@ from .normal_forms import (
     Formula,
     Named,
     Opaque,
-    Product,
-    Sum,
     Unknown,
     formula,
     matrices,
     negated,
-    number,
-    of_atom,
     parts_of_extremes,
     sides,
     total,
 )
+from .sums import Atom, Product, Sum, number, of_atom
 
 Sources = frozenset[str]
 NONE: Sources = frozenset()
-DEEPEST, MOST_FACTS, LARGEST_DENOMINATOR = 6, 4000, 1000
+DEEPEST, MOST_FACTS, MOST_PROGRAMS, LARGEST_DENOMINATOR = 6, 4000, 4000, 1000  # more than ten times what our examples need
 INFEASIBLE, HALF, NEARLY = 2, 0.5, 1e-6  # linprog's word; how a number is told from the next integer; how far a point may miss
 
 
@@ -82,12 +78,14 @@ class _Known:
     impossible: Sources | None = None  # what is known contradicts itself, by these theorems
     fresh: int = 0
     points: list[_Point] = field(default_factory=list)
+    asked: list[int] = field(default_factory=lambda: [0])  # linear programs solved, in all copies together
     usable: tuple[tuple[int, ...], list[tuple[Sum, Sources]]] = ((), [])
 
     def copy(self) -> _Known:
         return _Known(
             dict(self.totals), dict(self.finite), dict(self.others), list(self.clauses), list(self.each), dict(self.windows),
             self.impossible, self.fresh, [_Point(one.values) for one in self.points],
+            asked=self.asked,
         )  # fmt: skip
 
 
@@ -199,7 +197,6 @@ def _add(known: _Known, one: Formula, why: Sources) -> None:
 def _new_window(known: _Known) -> Sum:
     known.fresh += 1
     window = of_atom(Atom(f"some window {known.fresh}"))
-    known.totals[number(0) - window] = NONE
     for k in (-1, 0, 1):
         known.windows[window + number(k)] = None
     return window
@@ -348,6 +345,9 @@ def _combined(what: Sum, known: _Known) -> Sources | None:
     rows = _usable(known)
     if any(point.at(what) > HALF and point.meets(rows) for point in known.points):
         return None
+    known.asked[0] += 1
+    if known.asked[0] > MOST_PROGRAMS:
+        raise _TooMuch
     products: dict[Product, int] = {}
     for one in (what, *(one for one, _ in rows)):
         for product, _ in one.terms:

@@ -1,7 +1,5 @@
-"""Expressions in a normal form, in which two ways to say the same are the same: sums of products, and what is asked of them.
+"""Expressions in a normal form, in which two ways to say the same are the same: what is asked of sums of products.
 
-    Atom           a part that is no sum and no product: a quantity, rank_OT(n + 1), rank(C @ F), max(n, delay_known), a window
-    Sum            integer multiples of products of atoms; the constant is the multiple of the empty product
     AtMostZero     a sum is at most 0
     Finite         an atom is not infinite
     Opaque         a comparison of which nothing is known but its two sides
@@ -19,85 +17,20 @@ An expression that has no value on a system is given one here; what is derived i
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
-from functools import cached_property
+from dataclasses import dataclass
 from math import isinf
 
 from ..language.evaluating import OF_A_MATRIX
 from ..language.nodes import Node
 from ..quantities.registry import Kind
+from .sums import Atom, Sum, number, of_atom
 
 
 class Unknown(Exception):
     """The expression holds something of which no normal form is known: a predicate of Python, a quantity of two systems."""
 
 
-@dataclass(frozen=True, order=True)
-class Atom:
-    """`text` names it. `argument` is that of a function with a window."""
-
-    text: str
-    finite: bool = True
-    argument: Sum | None = field(default=None, compare=False)
-
-
-Product = tuple[Atom, ...]
-Env = Mapping[str, "Sum"]
-
-
-@dataclass(frozen=True)
-class Sum:
-    """The multiples by product, none of them 0, in order."""
-
-    terms: tuple[tuple[Product, int], ...]
-
-    @cached_property
-    def atoms(self) -> frozenset[Atom]:
-        """These are the atoms in it."""
-        return frozenset(atom for product, _ in self.terms for atom in product)
-
-    @property
-    def constant(self) -> int:
-        """This is the multiple of the empty product."""
-        return dict(self.terms).get((), 0)
-
-    def __add__(self, other: Sum) -> Sum:
-        found = dict(self.terms)
-        for product, times in other.terms:
-            found[product] = found.get(product, 0) + times
-        return _sum(found)
-
-    def times(self, factor: int) -> Sum:
-        """Return so many times the sum."""
-        return _sum({product: factor * times for product, times in self.terms})
-
-    def __sub__(self, other: Sum) -> Sum:
-        return self + other.times(-1)
-
-    def __mul__(self, other: Sum) -> Sum:
-        found: dict[Product, int] = {}
-        for left, a in self.terms:
-            for right, b in other.terms:
-                product = tuple(sorted((*left, *right)))
-                found[product] = found.get(product, 0) + a * b
-        return _sum(found)
-
-    def __str__(self) -> str:
-        return " + ".join(f"{times}*{'*'.join(atom.text for atom in product)}" for product, times in self.terms) or "0"
-
-
-def _sum(found: Mapping[Product, int]) -> Sum:
-    return Sum(tuple(sorted((product, times) for product, times in found.items() if times)))
-
-
-def number(value: int) -> Sum:
-    """Return the sum that is a constant."""
-    return _sum({(): value})
-
-
-def of_atom(atom: Atom) -> Sum:
-    """Return the sum that is an atom."""
-    return _sum({(atom,): 1})
+Env = Mapping[str, Sum]
 
 
 # -- formulas ----------------------------------------------------------------------------------------------------------

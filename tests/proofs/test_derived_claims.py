@@ -84,15 +84,21 @@ ONLY_LOOKS_SO = [
     ("iff(zeta == m, rank(C @ F) == m)", ("is_zero(G)", "left_invertible")),
     ("iff(zeta == m, rank(C @ F) == m and finite_zeros == 0)", ("left_invertible",)),
     ("rank(A @ F) == rank(F @ A)", ("lag <= n",)),
+    ("all(s >= 0 for s in windows(0 - 1)) and lag <= n", ()),
+    ("all(implies(s >= n, rank_OT(s + 1) >= rank_OT(s) + m) for s in windows(0))", ("observable",)),
+    ("any(gap(s) == m for s in windows(n, n - 1))", ("left_invertible",)),
+    ("least(s for s in windows(0) if rank_T(s + 1) == rank_T(s)) == delay_known", ()),
+    ("max(lag, delay_known) <= n", ()),
+    ("min(n, delay_known) == delay_known", ()),
 ]
 
 
-@pytest.mark.parametrize(("conclusion", "hypotheses", "names"), FOLLOWS)
+@pytest.mark.parametrize(("conclusion", "hypotheses", "names"), FOLLOWS[:: every()])
 def test_what_follows_is_proved_by_its_theorem(conclusion: str, hypotheses: tuple[str, ...], names: tuple[str, ...]) -> None:
     assert proved(conclusion, *hypotheses) == names
 
 
-@pytest.mark.parametrize(("conclusion", "hypotheses"), ONLY_LOOKS_SO)
+@pytest.mark.parametrize(("conclusion", "hypotheses"), ONLY_LOOKS_SO[:: every()])
 def test_what_only_looks_like_a_theorem_is_not_proved(conclusion: str, hypotheses: tuple[str, ...]) -> None:
     assert proved(conclusion, *hypotheses) is None
 
@@ -100,7 +106,7 @@ def test_what_only_looks_like_a_theorem_is_not_proved(conclusion: str, hypothese
 def test_a_claim_of_the_ledger_is_proved_just_where_rocq_has_proved_it() -> None:
     verdicts = {f"{one.id}--{reading.id}": reading.proved for one in load() for reading in one.readings}
     listed = list(readings().values())
-    chosen = listed[:: 1 if every() == 1 else 6]
+    chosen = listed[:: 1 if every() == 1 else 10]
     assert len(listed) == 30
     for one in chosen:
         found = proof_of([each.that for each in one.hypotheses], one.conclusion)
@@ -245,8 +251,7 @@ def attack(seed: int, count: int) -> tuple[int, list[str]]:
 
 
 def test_changed_claims_that_are_derived_are_not_refuted() -> None:
-    followed, wrong = attack(seed=5, count=5)
-    assert not wrong and followed >= 0
+    assert not attack(seed=5, count=3)[1]  # few follow; the slow test below tries many
 
 
 @pytest.mark.slow
