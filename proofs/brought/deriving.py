@@ -151,10 +151,10 @@ def _meanings(nodes: Sequence[Node]) -> Iterator[Formula]:
             continue
         yield from (AtMostZero(zero - rank), AtMostZero(rank - rows), AtMostZero(rank - columns))
     for name, whole, part in parts_of_extremes(nodes, {}):
-        less, more = (part, whole) if name == "max" else (whole, part)
-        if less != more:
-            infinite = [atom for atom in (less - more).atoms if not atom.finite]
-            yield AtMostZero(less - more) if len(infinite) < 2 else Opaque(less, more, strict=False)
+        smaller, larger = (part, whole) if name == "max" else (whole, part)
+        if smaller != larger:
+            infinite = [atom for atom in (smaller - larger).atoms if not atom.finite]
+            yield AtMostZero(smaller - larger) if len(infinite) < 2 else Opaque(smaller, larger, strict=False)
 
 
 def _add(known: _Known, one: Formula, why: Sources) -> None:
@@ -217,9 +217,9 @@ def _look_for_windows(known: _Known, formulas: Iterable[Formula]) -> None:
                 continue
             case _:
                 continue
-        for atom in (atom for what in sums for atom in what.atoms if atom.argument is not None):
-            for k in (-1, 0):
-                known.windows[atom.argument + number(k)] = None
+        for argument in (atom.argument for what in sums for atom in what.atoms):
+            if argument is not None:
+                known.windows |= {argument + number(k): None for k in (-1, 0)}
 
 
 def _saturate(known: _Known) -> None:
@@ -266,7 +266,7 @@ def _look_at(clause: Either, why: Sources, known: _Known) -> bool | None:
 
 
 def _size(known: _Known) -> int:
-    return sum(map(len, (known.totals, known.finite, known.others, known.clauses, known.each)))
+    return len(known.totals) + len(known.finite) + len(known.others) + len(known.clauses) + len(known.each)
 
 
 def _refuted(one: Formula, known: _Known) -> Sources | None:
@@ -282,8 +282,8 @@ def _seen(one: Formula, known: _Known) -> Sources | None:
         return known.impossible
     match one:
         case Both(parts):
-            found = [_seen(part, known) for part in parts]
-            return None if None in found else NONE.union(*(each for each in found if each is not None))
+            each = [_seen(part, known) for part in parts]
+            return None if None in each else NONE.union(*(why for why in each if why is not None))
         case Either(parts):
             return next((found for part in parts if (found := _seen(part, known)) is not None), None)
         case AtMostZero(what):
@@ -470,9 +470,9 @@ def _prove(wanted: Formula, known: _Known, depth: int) -> Sources | None:
             if len(infinite) == 1 and len(infinite[0][0]) == 1 and infinite[0][1] < 0:  # where the atom is infinite, this holds
                 return _prove_under([Finite(infinite[0][0][0])], wanted, known, depth)
         case Each() if not wanted.some:
-            here = known.copy()
-            window = _new_window(here)
-            return _prove_under(list(wanted.bounds(window)), wanted.at(window), here, depth)
+            inside = known.copy()
+            window = _new_window(inside)
+            return _prove_under(list(wanted.bounds(window)), wanted.at(window), inside, depth)
         case Each():
             for window in known.windows:
                 if (here := _prove(Both((*wanted.bounds(window), wanted.at(window))), known, depth + 1)) is not None:

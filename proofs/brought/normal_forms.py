@@ -20,7 +20,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from math import isinf
 
-from ..language.evaluating import OF_A_MATRIX
+from ..language.grammar import OF_A_MATRIX
 from ..language.nodes import Node
 from ..quantities.registry import Kind
 from .sums import Atom, Sum, number, of_atom
