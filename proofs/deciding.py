@@ -22,18 +22,19 @@ from typing import Any
 from joblib import Parallel, delayed
 
 from ..base.progress import silent
+from .brought.readings import decide_reading
 from .evidence.material import Carried, Folder, Material, Shelf, Wanted
 from .hypotheses import ablations
 from .trust.checker import Malformed, Rejected
 from .verdict.ablation import ablate
-from .verdict.ledger import expected_without
+from .verdict.ledger import IN_LANGUAGE, expected_without
 from .verdict.verdicts import Outcome, Row, Verdict
 from .verdict.workbench import Workbench
 
 
 @dataclass(frozen=True)
 class Check:
-    """The function of claims/ with this name, "file.function"; it comes to an Outcome."""
+    """The function of claims/ with this name, "file.function", or the text in the language of claims, "language.NAME"; to an Outcome."""
 
     name: str
 
@@ -41,7 +42,10 @@ class Check:
         """Return what the function finds; an ERROR where it raises, or says something that no accepted certificate bears."""
         file, _, name = self.name.partition(".")
         try:
-            outcome: Outcome = getattr(import_module(f".claims.{file}", __package__), name)(bench)
+            if file == IN_LANGUAGE:
+                outcome = decide_reading(bench, name)
+            else:
+                outcome = getattr(import_module(f".claims.{file}", __package__), name)(bench)
         except (Malformed, Rejected) as error:
             outcome = Outcome(Verdict.ERROR, f"the checker refused a certificate: {error}")
         except Exception as error:  # whatever it is, this check did not finish, and the others go on

@@ -38,12 +38,14 @@ from .verdict.workbench import Workbench
 FORMAT = "faultspace-worlds/1"
 NONE_MEETS = "no system of the corpus meets the hypotheses"
 READINGS = (
-    "theorem_2.pencil_zeros_minimal", "theorem_2.pencil_zeros", "assumption_4.n_known", "assumption_4.n_unknown", "assumption_4.lag",
-    "proposition_3.n_alone", "proposition_3.lag_exactly", "proposition_3.normal_rank", "problem_11.window_n_plus_1",
-    "problem_11.lag_plus_1", "problem_11.dimension", "zero_feedthrough.exactly_when", "trajectory_recovered.state_known",
-    "trajectory_recovered.no_finite_zeros", "trajectory_recovered.zero_feedthrough_signal", "objection_3.gap_without_controllability",
-    "objection_3.ranks_without_minimality", "window_ranks.ranks", "window_ranks.indices", "window_ranks.solutions", "window_ranks.limit",
-    "sharp_windows.gap",
+    "language.theorem-2--pencil-zeros-minimal", "language.theorem-2--pencil-zeros", "language.assumption-4--n-known",
+    "language.assumption-4--n-unknown", "language.assumption-4--lag", "language.proposition-3--n-alone",
+    "language.proposition-3--lag-exactly", "language.proposition-3--normal-rank", "language.problem-11--window-n-plus-1",
+    "language.problem-11--lag-plus-1", "language.problem-11--dimension", "zero_feedthrough.exactly_when",
+    "language.trajectory-recovered--state-known", "language.trajectory-recovered--no-finite-zeros",
+    "trajectory_recovered.zero_feedthrough_signal", "language.objection-3--gap-without-controllability",
+    "language.objection-3--ranks-without-minimality", "window_ranks.ranks", "language.window-ranks--indices", "window_ranks.solutions",
+    "language.window-ranks--limit", "language.sharp-windows--gap",
 )  # fmt: skip
 
 Dimensions = tuple[int, int, int]

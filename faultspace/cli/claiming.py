@@ -27,11 +27,25 @@ from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, NOT_AS_EXPECTED
 from .reading_files import prepare_folder, read_json, read_text, system_in, write_json
 
-STYLES = {Answered.REFUTED: "red", Answered.NOT_REFUTED: "green", Answered.VACUOUS: "yellow"}
+STYLES = {Answered.REFUTED: "red", Answered.NOT_REFUTED: "green", Answered.PROVED: "green", Answered.VACUOUS: "yellow"}
 
 
-def run(name: str, *, only: list[str], ablation: bool, most: int | None, jobs: int, on: str | None, out: Path | None, as_json: bool) -> int:
+def run(
+    name: str,
+    *,
+    only: list[str],
+    ablation: bool,
+    most: int | None,
+    jobs: int,
+    on: str | None,
+    out: Path | None,
+    as_json: bool,
+    cluster: str | None = None,
+    resume: Path | None = None,
+) -> int:
     """Decide the claims of a file, or explain them on what is in `on`. The exit code is 1 where a verdict is not the expected one."""
+    if cluster is not None and jobs > 1:
+        raise InvalidInput("--scheduler: got --jobs, too, expected one of the two: the cluster decides how many work")
     with in_file(name):
         claims = _chosen(read_claims(read_text(name)), only, "--claim")
     if on is not None:
@@ -39,7 +53,15 @@ def run(name: str, *, only: list[str], ablation: bool, most: int | None, jobs: i
     if out is not None:
         prepare_folder(out)
     with in_file(name), working(f"deciding {quote_path(name)}") as tell:
-        found = decide_claims(claims, ablation=ablation, most=MOST if most is None else most, jobs=jobs, on_progress=evenly(tell))
+        found = decide_claims(
+            claims,
+            ablation=ablation,
+            most=MOST if most is None else most,
+            jobs=jobs,
+            on_progress=evenly(tell),
+            cluster=cluster,
+            resume=resume,
+        )
     if as_json:
         print_json(found.to_json())
     else:

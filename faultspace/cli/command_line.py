@@ -174,6 +174,12 @@ def claim(
         typer.Option(metavar="ID", help="Seek sharper bounds in the place of this claim's, instead; may be repeated.", show_default=False),
     ] = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the certificates there.", show_default=False)] = None,
+    resume: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Keep there what was gone through, and go on from it.", show_default=False)
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="Work on the Dask cluster with this scheduler instead.", show_default=False)
+    ] = None,
     json: Json = False,
 ) -> int:
     """Decide claims of your own about systems.
@@ -187,7 +193,9 @@ def claim(
         if only or explain is not None:
             raise InvalidInput("--sharpen: got --claim or --explain, too, expected --sharpen ID alone")
         return claiming.sharpen(file, sharpen, most=most, jobs=jobs, out=out, as_json=json)
-    return claiming.run(file, only=only or [], ablation=ablation, most=most, jobs=jobs, on=explain, out=out, as_json=json)
+    return claiming.run(
+        file, only=only or [], ablation=ablation, most=most, jobs=jobs, on=explain, out=out, as_json=json, cluster=scheduler, resume=resume
+    )
 
 
 @_command()

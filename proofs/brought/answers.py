@@ -18,6 +18,7 @@ from ...exact.system.systems import ResidualSystem
 from ..quantities.cases import Case, case_json
 from ..trust.structure_certificates import Certificate, sha256
 from .claims import Answered
+from .theorems import Proof
 
 
 @dataclass(frozen=True)
@@ -88,7 +89,7 @@ class Tried:
 class Dropped:
     """The verdict on the claim without the hypothesis `label`, with what refutes it; `undefined` says why there is none.
 
-    `informs` is False where the claim is refuted with the hypothesis, too.
+    `informs` is False where the claim is refuted with the hypothesis, too; `proof` says why it is PROVED without.
     """
 
     label: str
@@ -96,6 +97,7 @@ class Dropped:
     case: Case | None
     undefined: str = ""
     informs: bool = True
+    proof: Proof | None = None
 
     @property
     def words(self) -> str:
@@ -107,6 +109,8 @@ class Dropped:
                 return f"needed: without it {self.case} refutes the claim" if self.informs else "the claim is refuted with it, too"
             case Answered.VACUOUS:
                 return "without it nothing meets the others either"
+            case Answered.PROVED if self.proof is not None:
+                return f"not needed: without it the claim {self.proof.words}"
         return "not shown to be needed: nothing that was tried refutes the claim without it"
 
 
@@ -114,11 +118,11 @@ class Dropped:
 class ClaimAnswer(Shown):
     """The verdict on a claim over one field, with the system that refutes it and what was tried: an entry of ClaimAnswers.
 
-    `verdict` is "REFUTED", "NOT REFUTED" or "VACUOUS". `counterexample` is None, or has the `system` (the `case`, where the claim is about
-    two), the dict `quantities` of what the claim reads of it, and `certificates`; `tried` has the number of systems that were gone through
-    and of those that meet the hypotheses; `dropped` is what becomes of the claim without each hypothesis, None where that was not asked;
-    `expected` is the verdict that was expected, None where none was. Source: [F75], [VD79] for what is asked of every window. Raises
-    nothing by itself.
+    `verdict` is "REFUTED", "NOT REFUTED", "VACUOUS" or "PROVED", and `proof.theorems` then has the names of Rocq's theorems with their
+    locks. `counterexample` is None, or has the `system` (the `case`, where the claim is about two), the dict `quantities` of what the
+    claim reads of it, and `certificates`; `tried` has the number of systems that were gone through and of those that meet the hypotheses;
+    `dropped` is what becomes of the claim without each hypothesis, None where that was not asked; `expected` is the verdict that was
+    expected, None where none was. Source: [F75], [VD79] for what is asked of every window. Raises nothing by itself.
 
     >>> import faultspace as fs
     >>> found = fs.claim("finite_zeros == 0", hypotheses=["minimal"], box={"total": 3}).answers[0]
@@ -138,11 +142,12 @@ class ClaimAnswer(Shown):
     dropped: tuple[Dropped, ...] | None
     expected: Answered | None
     seconds: float
+    proof: Proof | None = None
 
     @property
     def as_expected(self) -> bool:
-        """Whether the verdict is the one that was expected, if one was."""
-        return self.expected in (None, self.verdict)
+        """Whether the verdict is the one that was expected, if one was; what is PROVED is NOT REFUTED, too."""
+        return self.expected in (None, self.verdict) or (self.verdict, self.expected) == (Answered.PROVED, Answered.NOT_REFUTED)
 
     @property
     def title(self) -> str:
@@ -159,6 +164,8 @@ class ClaimAnswer(Shown):
         for k, text in enumerate(self.hypotheses):
             yield "" if k else "hypotheses", text
         yield "conclusion", self.conclusion
+        if self.proof is not None:
+            yield "proof", self.proof.words
         if self.verdict == Answered.VACUOUS:
             yield "vacuous", "nothing that was tried meets the hypotheses"
         if (found := self.counterexample) is not None:
@@ -180,6 +187,7 @@ class ClaimAnswer(Shown):
         tried = {name: getattr(self.tried, name) for name in self.tried.__dataclass_fields__}
         answer: dict[str, Any] = {"id": self.id, "field": self.field, "verdict": str(self.verdict)}
         answer["expected"] = None if self.expected is None else str(self.expected)
+        answer["theorems"] = {} if self.proof is None else dict(self.proof.theorems)
         answer["smallest"] = None if found is None else found.to_json()
         answer["tried"] = tried
         answer["hypotheses"] = [

@@ -8,6 +8,7 @@ explain         what each part of a claim is on a given system
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from ...base.errors import InvalidInput, shorten
@@ -22,6 +23,7 @@ from .answers import ClaimAnswers
 from .case_files import fitting
 from .claims import Claim, make_claim
 from .deciding import decide
+from .kept import Kept, Sharing
 
 MOST = 10**9
 Predicate = Callable[[Asked], bool]
@@ -58,7 +60,7 @@ def claim(
     >>> import faultspace as fs
     >>> found = fs.claim("all(gap(s) == m for s in windows(n))", hypotheses=["left_invertible"], box={"total": 4})
     >>> found.answers[0].verdict, found.answers[0].dropped[0].verdict
-    (<Answered.NOT_REFUTED: 'NOT REFUTED'>, <Answered.REFUTED: 'REFUTED'>)
+    (<Answered.PROVED: 'PROVED'>, <Answered.REFUTED: 'REFUTED'>)
     """
     given: dict[str, Any] = {"about": about, "conclusion": conclusion, "hypotheses": list(hypotheses), "fields": list(fields)}
     given |= {"statement": statement, "source": source} | ({} if box is None else {"box": box})
@@ -66,13 +68,25 @@ def claim(
 
 
 def decide_claims(
-    claims: Sequence[Claim], *, ablation: bool = True, most: int = MOST, jobs: int = 1, on_progress: Progress = silent
+    claims: Sequence[Claim],
+    *,
+    ablation: bool = True,
+    most: int = MOST,
+    jobs: int = 1,
+    on_progress: Progress = silent,
+    cluster: str | None = None,
+    resume: Path | None = None,
 ) -> ClaimAnswers:
-    """Return the verdict on each claim over each of its fields. Raises InvalidInput as `claim` does, and for numbers out of range."""
+    """Return the verdict on each claim over each of its fields. Raises InvalidInput as `claim` does, and for numbers out of range.
+
+    `cluster` is the address of a Dask scheduler, whose workers then go through large boxes; `resume` is a file that keeps what was gone
+    through, so that the same call goes on where it was stopped.
+    """
     for name, value in (("most", most), ("jobs", jobs)):
         if type(value) is not int or value < 1:
             raise InvalidInput(f"{name}: got {shorten(value)}, expected an integer >= 1")
-    answers = [one for given in claims for one in decide(given, ablation=ablation, most=most, jobs=jobs, progress=on_progress)]
+    sharing = Sharing(jobs, cluster, None if resume is None else Kept(resume))
+    answers = [one for given in claims for one in decide(given, ablation=ablation, most=most, progress=on_progress, sharing=sharing)]
     return ClaimAnswers(tuple(answers))
 
 

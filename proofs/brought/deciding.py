@@ -7,6 +7,7 @@ certified     what the claim reads of a counterexample, with certificates that t
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ...base.errors import InvalidInput
@@ -14,15 +15,18 @@ from ...base.progress import Progress
 from ...exact.algebra.matrices import Matrix
 from ...exact.system.systems import ResidualSystem
 from ..language.evaluating import evaluate, exactly
-from ..language.nodes import Undefined
+from ..language.nodes import Node, Undefined
+from ..language.vocabularies import SYSTEM
 from ..quantities.cases import Case, size_of
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, Unprovable, accept, sha256
 from .answers import ClaimAnswer, Counterexample, Dropped, Tried
 from .boxes import Box
 from .claims import Answered, Claim
+from .kept import Sharing
 from .known_cases import known_cases, smaller
 from .known_systems import ADVERSARY, CORPUS
+from .theorems import Proof, proof_of
 from .trying import Found, Question, must_have_a_value, search
 
 
@@ -35,12 +39,15 @@ class _Known:
     undefined: str = ""
 
 
-def decide(claim: Claim, *, ablation: bool, most: int, jobs: int, progress: Progress) -> list[ClaimAnswer]:
+def decide(
+    claim: Claim, *, ablation: bool, most: int, jobs: int = 1, progress: Progress, sharing: Sharing | None = None
+) -> list[ClaimAnswer]:
     """Return the verdict over each field. Raises InvalidInput where the claim has no value on a system, and names it."""
-    return [_over(claim, field, ablation=ablation, most=most, jobs=jobs, progress=progress) for field in claim.boxes]
+    shared = sharing or Sharing(jobs)
+    return [_over(claim, field, ablation=ablation, most=most, sharing=shared, progress=progress) for field in claim.boxes]
 
 
-def _over(claim: Claim, field: str, *, ablation: bool, most: int, jobs: int, progress: Progress) -> ClaimAnswer:
+def _over(claim: Claim, field: str, *, ablation: bool, most: int, sharing: Sharing, progress: Progress) -> ClaimAnswer:
     started, box = time.perf_counter(), claim.boxes[field]
     *hypotheses, conclusion = claim.nodes
     questions = [Question(tuple(hypotheses), conclusion)]
@@ -48,7 +55,7 @@ def _over(claim: Claim, field: str, *, ablation: bool, most: int, jobs: int, pro
         questions += [
             Question(tuple(one for place, one in enumerate(hypotheses) if place != k), conclusion, k) for k in range(len(hypotheses))
         ]
-    searched = search(box, questions, most=most, jobs=jobs, progress=progress)
+    searched = search(box, questions, most=most, progress=progress, sharing=sharing)
     main = searched.found[0]
     if main.undefined is not None:
         raise must_have_a_value(main.undefined, f"claim.{claim.id}")
@@ -62,6 +69,9 @@ def _over(claim: Claim, field: str, *, ablation: bool, most: int, jobs: int, pro
     elif known.failing is not None:
         counterexample = certified(claim, smaller(known.failing, lambda one: _fails(questions[0], one)), smallest=False)
     verdict = Answered.REFUTED if counterexample else _unrefuted(main, known)
+    proof = None if verdict == Answered.VACUOUS else _proof(hypotheses, conclusion, box)
+    if proof is not None:
+        verdict = _proved(f"claim.{claim.id}", proof, None if counterexample is None else counterexample.case)
     asked = main.failing is None and known.failing is None
     listed = known_cases(box) if main.failing is None else ()
     counts = {origin: sum(1 for one in listed if one.origin == origin) for origin in (CORPUS, ADVERSARY)}
@@ -81,7 +91,7 @@ def _over(claim: Claim, field: str, *, ablation: bool, most: int, jobs: int, pro
     if ablation:
         labels = [one.label for one in claim.hypotheses]
         dropped = tuple(
-            _without(labels[k], question, found, box, asked=asked)
+            _without(f"claim.{claim.id} without {labels[k]}", labels[k], question, found, box, asked=asked)
             for k, (question, found) in enumerate(zip(questions[1:], searched.found[1:], strict=True))
         )
     return ClaimAnswer(
@@ -96,6 +106,7 @@ def _over(claim: Claim, field: str, *, ablation: bool, most: int, jobs: int, pro
         tried=tried,
         dropped=dropped,
         expected=claim.expected.get(field),
+        proof=proof,
         seconds=time.perf_counter() - started,
     )
 
@@ -182,10 +193,25 @@ def _unrefuted(main: Found, known: _Known) -> Answered:
     return Answered.NOT_REFUTED if main.met or sum(known.met.values()) else Answered.VACUOUS
 
 
-def _without(label: str, question: Question, found: Found, box: Box, *, asked: bool) -> Dropped:
+def _proof(hypotheses: Sequence[Node], conclusion: Node, box: Box) -> Proof | None:
+    """Return the proof of a claim about single systems, of which alone the theorems speak; None where none is found."""
+    return proof_of(hypotheses, conclusion) if box.about == SYSTEM else None
+
+
+def _proved(name: str, proof: Proof, failing: Case | None) -> Answered:
+    """Return PROVED. Raises ArithmeticError where a system refutes what follows from theorems: one of the two is an error of ours."""
+    if failing is not None:
+        raise ArithmeticError(f"{name} {proof.words}, and yet {failing} refutes it")
+    return Answered.PROVED
+
+
+def _without(name: str, label: str, question: Question, found: Found, box: Box, *, asked: bool) -> Dropped:
     """Return what becomes of the claim without a hypothesis. Where it is refuted with it, `asked` is False, it is without it, too."""
     if not asked:
         return Dropped(label, Answered.REFUTED, found.failing, informs=False)
+    proof = _proof(question.hypotheses, question.conclusion, box)
+    if proof is not None:
+        return Dropped(label, _proved(name, proof, found.failing), None, proof=proof)
     if found.failing is not None:
         return Dropped(label, Answered.REFUTED, found.failing)
     if found.undefined is not None:

@@ -33,8 +33,9 @@ from ..language.nodes import Undefined as NoValue
 from ..quantities.batches import Batch
 from ..quantities.elimination import Integers
 from .boxes import Box, Share, Stretch
+from .kept import WORTH_SHARING
 from .known_systems import ADVERSARY, CORPUS, known_systems
-from .trying import WORTH_SHARING, Undefined, must_have_a_value
+from .trying import Undefined, must_have_a_value
 
 Place = tuple[int, int, int]  # the number of the sizes in the order of the box, of the stretch, of the system
 OUTSIDE = 10**9  # sizes of systems outside the box are numbered from here on, so that they come after it

@@ -25,8 +25,7 @@ from ..language.nodes import Node
 from ..language.vocabularies import VOCABULARIES
 from ..quantities.cases import Case
 from .boxes import Box, Share, Sizes, Stretch
-
-WORTH_SHARING = 10**6
+from .kept import Sharing, name_of, texts
 
 
 @dataclass(frozen=True)
@@ -79,7 +78,9 @@ class _Part(Share):
     tables: dict[Node, Table] = field(default_factory=dict)
 
 
-def search(box: Box, questions: Sequence[Question], *, most: int, jobs: int, progress: Progress) -> Searched:
+def search(
+    box: Box, questions: Sequence[Question], *, most: int, jobs: int = 1, progress: Progress, sharing: Sharing | None = None
+) -> Searched:
     """Go through the box until every question has failed, all systems are tried, or `most` of them are."""
     result = Searched([Found() for _ in questions])
     reduced = invariant(*{node for one in questions for node in (*one.hypotheses, one.conclusion)}, vocabulary=VOCABULARIES[box.about])
@@ -96,7 +97,7 @@ def search(box: Box, questions: Sequence[Question], *, most: int, jobs: int, pro
             break
         progress("going through the box", result.systems // shown, total // shown)
         asked = [questions[k] for k in waiting]
-        parts = _share(box, one, asked, left, jobs, reduced=reduced)
+        parts = _share(box, one, asked, left, sharing or Sharing(jobs), reduced=reduced)
         result.systems += sum(part.systems for part in parts)
         result.looked_at += sum(part.looked_at for part in parts)
         result.exhausted &= all(part.whole for part in parts)
@@ -112,12 +113,25 @@ def search(box: Box, questions: Sequence[Question], *, most: int, jobs: int, pro
     return result
 
 
-def _share(box: Box, sizes: Sizes, asked: list[Question], left: int, jobs: int, *, reduced: bool) -> list[_Part]:
-    if jobs == 1 or box.count(*sizes) < WORTH_SHARING:
+def _share(box: Box, sizes: Sizes, asked: list[Question], left: int, sharing: Sharing, *, reduced: bool) -> list[_Part]:
+    """Return the parts of the systems of these sizes: those that are kept, and the others gone through now."""
+    of, said = sharing.parts(box.count(*sizes)), texts(asked)
+    if of == 1:
         return [_search(box, sizes, asked, left, 0, 1, reduced=reduced)]
-    with pool(jobs, None) as parallel:
-        tasks = (joblib.delayed(_search)(box, sizes, asked, left // jobs, k, jobs, reduced=reduced) for k in range(jobs))
-        return list(parallel(tasks))
+    kept = sharing.kept if said is not None else None
+    names = [name_of(str(box), sizes, said, left, k, of) for k in range(of)]
+    parts: dict[int, _Part] = {}
+    for k, name in enumerate(names):
+        if kept is not None and (one := kept.parts.get(name)) is not None and len(one["met"]) == len(asked):
+            parts[k] = _Part(one["systems"], one["looked_at"], one["whole"], list(one["met"]), [None] * len(asked))
+    waiting = [k for k in range(of) if k not in parts]
+    with pool(sharing.jobs, sharing.cluster) as parallel:
+        tasks = (joblib.delayed(_search)(box, sizes, asked, left // of, k, of, reduced=reduced) for k in waiting)
+        for k, part in zip(waiting, parallel(tasks), strict=True):
+            parts[k] = part
+            if kept is not None and not any(part.first):
+                kept.note(names[k], systems=part.systems, looked_at=part.looked_at, whole=part.whole, met=part.met)
+    return [parts[k] for k in range(of)]
 
 
 def _search(box: Box, sizes: Sizes, asked: list[Question], left: int, mine: int, of: int, *, reduced: bool) -> _Part:

@@ -15,55 +15,12 @@ from ...exact.algebra.matrices import Matrix, rank
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.structure.signals import excitation_matrix, hankel, persistency, simulate
 from ...exact.system.systems import ResidualSystem
-from ..evidence.corpus import Evidence, Questions
 from ..evidence.families import adversarial, random_systems
-from ..evidence.questions import DELAY_KNOWN_STATE, DELAY_UNKNOWN_STATE, OBSERVABILITY, RANKS
 from ..evidence.search import Box, Facts, Flags, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict
-from ..verdict.workbench import Test, Workbench, accepted, certify, counterexample, refute
-from .common import GAP_BOX, delay_of, delays, gap_is_m_from, under_assumption_4, wrong_gap
-
-
-def n_minus_1_known(bench: Workbench) -> Outcome:
-    """The gap is claimed to be m for s >= max(l, n - 1), where l is the delay for a known initial state."""
-    test = wrong_gap(lambda f: f.delay_known_state)
-    return refute(bench, GAP_BOX, test, _asks(True), under_assumption_4(True), _from(True, -1), delays)
-
-
-def n_minus_1_unknown(bench: Workbench) -> Outcome:
-    """The gap is claimed to be m for s >= max(l, n - 1), where l is the delay for an unknown initial state."""
-    test = wrong_gap(lambda f: f.delay_unknown_state)
-    return refute(bench, GAP_BOX, test, _asks(False), under_assumption_4(False), _from(False, -1), delays)
-
-
-def n_known(bench: Workbench) -> Outcome:
-    """The gap is m for s >= max(l, n), where l is the delay for a known initial state."""
-    return certify(bench, _asks(True), under_assumption_4(True), _from(True, 0), delays)
-
-
-def n_unknown(bench: Workbench) -> Outcome:
-    """The gap is m for s >= max(l, n), where l is the delay for an unknown initial state."""
-    return certify(bench, _asks(False), under_assumption_4(False), _from(False, 0), delays)
-
-
-def lag(bench: Workbench) -> Outcome:
-    """The gap is m for every s >= lag and, unless p = m, for no s < lag; neither observability nor any delay is used."""
-
-    def holds(e: Evidence) -> bool:
-        return all((e.kernel.gap(s) == e.system.m) == (s >= e.kernel.lag) for s in range(0, e.system.n + 3))
-
-    return certify(bench, (RANKS,), lambda e: e.left_invertible and e.system.p > e.system.m, holds, delays)
-
-
-def _asks(known_state: bool) -> Questions:
-    return RANKS, OBSERVABILITY, DELAY_KNOWN_STATE if known_state else DELAY_UNKNOWN_STATE
-
-
-def _from(known_state: bool, shift: int) -> Test:
-    return gap_is_m_from(lambda e: max(delay_of(e, known_state) or 0, e.system.n + shift))
-
+from ..verdict.workbench import Workbench, accepted, counterexample
 
 # -- the condition on the data ---------------------------------------------------------------------------------------------
 

@@ -4,9 +4,7 @@ ranks_and_inversion    certificates of the window ranks, and of left-invertibili
 delays                 these, and certificates of both delays of left inversion
 zeros                  these, and certificates of the finite and the infinite zeros
 spaces                 these, and certificates of the fault space at a window and in the limit
-under_assumption_4     whether a system is observable and left-invertible with some delay; `delay_of` is that delay
 gap_is_m_from          whether the gap is m from a bound on
-GAP_BOX, wrong_gap     where and how a window with a gap other than m is sought
 identity               the outcome of a parametric claim at several dimensions
 """
 
@@ -15,14 +13,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-import numpy as np
-
 from ...exact.parametric.stratification import Stratification, stratify
 from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..evidence.corpus import Evidence
-from ..evidence.search import Box, Facts, Flags, Integers
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict
@@ -66,22 +61,6 @@ def spaces(window: Callable[[ResidualSystem], int]) -> Show:
     return show
 
 
-GAP_BOX = Box(total=5, largest_n=3, largest_m=2, largest_p=3)
-
-
-def wrong_gap(delay: Callable[[Facts], Integers]) -> Callable[[Facts], Flags]:
-    """Return a test that finds observable left-invertible systems with gap(s) != m for some s >= max(l, n - 1, 1)."""
-
-    def candidate(facts: Facts) -> Flags:
-        bound = np.maximum(delay(facts), max(facts.n - 1, 1))
-        wrong = np.zeros(len(facts.A), dtype=np.bool_)
-        for s in range(1, facts.n + 2):
-            wrong |= (bound <= s) & (facts.gap(s) != facts.m)
-        return np.asarray(wrong & facts.observable & facts.left_invertible)
-
-    return candidate
-
-
 Dimensions = tuple[int, int, int]
 
 
@@ -96,20 +75,6 @@ def identity(bench: Workbench, claim: Callable[[Stratification], Any], quick: Se
     listed = ", ".join(str(d).replace(" ", "") for d in dimensions)
     words = f"for all parameter values at (n,p,m) = {listed}: {strata} strata, {expanded} identities of sympy expanded again by FLINT"
     return Outcome(Verdict.IDENTITY, words)
-
-
-def under_assumption_4(known_state: bool) -> Test:
-    """Return a test that asks whether a system is observable and left-invertible with some delay, for a known or unknown initial state."""
-
-    def applies(e: Evidence) -> bool:
-        return e.observable and e.left_invertible and delay_of(e, known_state) is not None
-
-    return applies
-
-
-def delay_of(e: Evidence, known_state: bool) -> int | None:
-    """Return the delay of left inversion in one of its two senses."""
-    return e.delay_known_state if known_state else e.delay_unknown_state
 
 
 def gap_is_m_from(bound: Callable[[Evidence], int]) -> Test:

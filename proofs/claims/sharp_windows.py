@@ -13,23 +13,12 @@ from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.structure.kernel_rows import KernelRepresentation, kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import comparison_certificate
-from ..evidence.corpus import Evidence
 from ..evidence.families import adversarial, random_systems
-from ..evidence.questions import RANKS
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
 from ..verdict.verdicts import Outcome, Verdict
-from ..verdict.workbench import Workbench, accepted, certify
+from ..verdict.workbench import Workbench, accepted
 from .common import ranks_and_inversion
-
-
-def gap(bench: Workbench) -> Outcome:
-    """gap(s) is the normal rank for exactly the s >= lag; where p = r the lag is 0, and it is so for every s."""
-
-    def holds(e: Evidence) -> bool:
-        return all((e.kernel.gap(s) == e.kernel.normal_rank) == (s >= e.kernel.lag) for s in range(0, e.system.n + 3))
-
-    return certify(bench, (RANKS,), lambda e: True, holds, ranks_and_inversion)
 
 
 def equality_as_many_faults(bench: Workbench) -> Outcome:

@@ -11,27 +11,15 @@ from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import reachability_matrix
 from ..evidence.corpus import Evidence
 from ..evidence.parametric import zero_count_claim
-from ..evidence.questions import FINITE_ZEROS, MINIMAL, RANKS, ZEROS
-from ..evidence.search import Box, Facts, Flags, smallest
+from ..evidence.questions import MINIMAL, ZEROS
+from ..evidence.search import Box, smallest
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome
-from ..verdict.workbench import Workbench, certify, counterexample, refute
+from ..verdict.workbench import Workbench, certify, counterexample
 from .common import identity, zeros
 
 BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
-
-
-def finite_zeros_only(bench: Workbench) -> Outcome:
-    """The formula is claimed with zeta counting finite zeros, for minimal left-invertible systems and s >= n."""
-
-    def with_infinite_zeros(facts: Facts) -> Flags:
-        deficient = facts.rank_from_rest(facts.n + 1) < (facts.n + 1) * facts.m
-        return np.asarray(deficient & facts.observable & facts.controllable & facts.left_invertible)
-
-    return refute(
-        bench, BOX, with_infinite_zeros, (*MINIMAL, FINITE_ZEROS), _minimal, lambda e: _formula(e, e.finite_zeros, e.system.n), zeros
-    )
 
 
 def transfer_function_zeros(bench: Workbench) -> Outcome:
@@ -54,31 +42,6 @@ def transfer_function_zeros(bench: Workbench) -> Outcome:
             zeros,
         )
     return counterexample(f"{found}, whose transfer function is that of its reachable part", BOX, _with_reachable_part(found))
-
-
-def every_window(bench: Workbench) -> Outcome:
-    """The formula is claimed with the zeros of the pencil for minimal left-invertible systems and any s >= 1."""
-
-    def short_window(facts: Facts) -> Flags:
-        late = facts.gap(facts.n + 1)
-        return np.asarray((facts.gap(1) != late) & facts.observable & facts.controllable & facts.left_invertible)
-
-    box = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
-    return refute(bench, box, short_window, (*MINIMAL, *ZEROS), _minimal, lambda e: _formula(e, e.zeta, 1), zeros)
-
-
-def pencil_zeros_minimal(bench: Workbench) -> Outcome:
-    """The formula holds with the zeros of the pencil, finite and infinite, for minimal left-invertible systems and s >= n."""
-    return certify(bench, (*MINIMAL, *ZEROS), _minimal, lambda e: _formula(e, e.zeta, e.system.n), zeros)
-
-
-def pencil_zeros(bench: Workbench) -> Outcome:
-    """It holds without observability and controllability, for s >= lag and no other s."""
-
-    def holds(e: Evidence) -> bool:
-        return all((e.kernel.rank(s) == e.system.n + s * e.system.m - e.zeta) == (s >= e.kernel.lag) for s in range(0, e.system.n + 4))
-
-    return certify(bench, (RANKS, *ZEROS), lambda e: e.left_invertible, holds, zeros)
 
 
 def parametric(bench: Workbench) -> Outcome:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ...exact.algebra import polynomials
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.pairs.no_feedthrough import zero_feedthrough
@@ -12,47 +10,10 @@ from ...exact.structure.pencil import zeros_alone
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import observability_matrix
 from ..evidence.corpus import Evidence
-from ..evidence.questions import DELAY_KNOWN_STATE, DELAY_UNKNOWN_STATE, FINITE_ZEROS, INFINITE_ZEROS, OBSERVABILITY, RANKS
-from ..evidence.search import Box
+from ..evidence.questions import DELAY_UNKNOWN_STATE, FINITE_ZEROS, RANKS
 from ..verdict.verdicts import Outcome
-from ..verdict.workbench import Workbench, certify, refute
+from ..verdict.workbench import Workbench, certify
 from .common import delays, zeros
-
-BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
-
-
-def state_known(bench: Workbench) -> Outcome:
-    """With x(0) known, v is determined iff the system is left-invertible; the delay is at most the largest order of an infinite zero."""
-
-    def holds(e: Evidence) -> bool:
-        if not e.left_invertible:
-            return e.delay_known_state is None
-        return e.delay_known_state == max(e.infinite_zero_orders, default=0)
-
-    return certify(bench, (RANKS, DELAY_KNOWN_STATE, INFINITE_ZEROS), lambda e: True, holds, delays)
-
-
-def state_unknown(bench: Workbench) -> Outcome:
-    """With x(0) unknown, v is claimed to be determined where the system is left-invertible and observable."""
-    return refute(
-        bench,
-        BOX,
-        lambda f: np.asarray(f.observable & f.left_invertible & (f.delay_unknown_state > f.n)),
-        (RANKS, OBSERVABILITY, DELAY_UNKNOWN_STATE),
-        lambda e: e.observable and e.left_invertible,
-        lambda e: e.delay_unknown_state is not None,
-        delays,
-    )
-
-
-def no_finite_zeros(bench: Workbench) -> Outcome:
-    """With x(0) unknown, v is determined iff the system is left-invertible and its finite zeros are the unobservable modes, counted."""
-
-    def holds(e: Evidence) -> bool:
-        hidden = e.system.n - rank(observability_matrix(e.system, e.system.n))
-        return (e.delay_unknown_state is not None) == (e.left_invertible and e.finite_zeros == hidden)
-
-    return certify(bench, (RANKS, DELAY_UNKNOWN_STATE, FINITE_ZEROS), lambda e: True, holds, lambda s: [*zeros(s), *delays(s)])
 
 
 def no_finite_zeros_as_a_set(bench: Workbench) -> Outcome:

@@ -104,12 +104,12 @@ class Evidence:
     @property
     def observable(self) -> bool:
         """This tells whether (A, C) is observable."""
-        return self.answer(OBSERVABILITY)
+        return self.answer(OBSERVABILITY) == self.system.n
 
     @property
     def controllable(self) -> bool:
         """This tells whether (A, F) is controllable."""
-        return self.answer(REACHABILITY)
+        return self.answer(REACHABILITY) == self.system.n
 
     @property
     def right_minimal_indices(self) -> tuple[int, ...]:

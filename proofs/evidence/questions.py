@@ -89,8 +89,8 @@ def _reachability(kernel: KernelRepresentation) -> Iterator[Certificate]:
     yield make.matrix_rank("reachability", kernel.system)
 
 
-def _is_full(kernel: KernelRepresentation, certificates: Sequence[Certificate]) -> bool:
-    return bool(certificates[0]["statement"]["rank"] == kernel.system.n)
+def _rank(kernel: KernelRepresentation, certificates: Sequence[Certificate]) -> int:
+    return int(certificates[0]["statement"]["rank"])
 
 
 def _dual_ranks(kernel: KernelRepresentation) -> Iterator[Certificate]:
@@ -161,8 +161,8 @@ def _window_ranks(kernel: KernelRepresentation, certificates: Sequence[Certifica
 
 
 RANKS = Question("ranks", _ranks, _kernel)
-OBSERVABILITY = Question("observability", _observability, _is_full)
-REACHABILITY = Question("reachability", _reachability, _is_full)
+OBSERVABILITY = Question("observability", _observability, _rank)
+REACHABILITY = Question("reachability", _reachability, _rank)
 RIGHT_INDICES = Question("right indices", _dual_ranks, _left_indices)
 DELAY_KNOWN_STATE = Question("delay from a known state", _from_known_state, _delay)
 DELAY_UNKNOWN_STATE = Question("delay from an unknown state", _from_unknown_state, _delay)

@@ -1,7 +1,8 @@
 """The ledger of claims, `ledger.toml`, as records: what is claimed, how it can be read, what verdict is expected.
 
     Claim       id, reference in the review, statement as printed, readings, expected verdict
-    Reading     one precise statement; `repair` marks those that are ours and not the paper's; `check` names the function in claims/
+    Reading     one precise statement; `repair` marks those that are ours and not the paper's; `check` names the function in claims/,
+                or the text in the language of claims (IN_LANGUAGE)
     load        the claims of the ledger, in its order
     expected_without   for each ablation of `hypotheses`, the verdict expected when one of its hypotheses is dropped
 
@@ -20,6 +21,7 @@ from typing import Any
 from ...base.sheets import Shown
 
 FILE = "ledger.toml"
+IN_LANGUAGE = "language"
 
 
 @dataclass(frozen=True, repr=False)
@@ -30,7 +32,8 @@ class Reading(Shown):
     string of the closed list of `Verdict`; `repair` says that the reading is ours and not the paper's.
     `theorems` of theory/headlines say it for all systems; of a refuted reading they are its counterexample. `missing`: what a
     proof for all systems lacks, where the reading holds and has none. `part` names the part of the claim that it reads, if any. `check` is
-    the function in claims/ that decides it, as "file.function". The statements are those of [G25] and of its review, or ours.
+    the function in claims/ that decides it, as "file.function", or "language.NAME" where a text of the language of claims does. The
+    statements are those of [G25] and of its review, or ours.
 
     Raises nothing.
 

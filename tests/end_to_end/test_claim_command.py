@@ -31,7 +31,7 @@ def file(tmp_path: Path) -> Path:
 def test_verdicts_are_printed(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["claim", str(file)]) == 0
     out = capsys.readouterr().out
-    assert "false: REFUTED" in out and "true: NOT REFUTED" in out
+    assert "false: REFUTED" in out and "true: PROVED" in out and "follows from lag_at_most_n" in " ".join(out.split())
     assert "A=[[-1]], F=[[-1]], C=[[-1]], G=[[0]]" in out and "Traceback" not in out
 
 
@@ -39,10 +39,10 @@ def test_the_json_is_that_of_the_contract(file: Path, capsys: pytest.CaptureFixt
     assert main(["claim", str(file), "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
     wrong, right = answer["claims"]
-    assert (wrong["id"], wrong["verdict"], right["id"], right["verdict"]) == ("false", "REFUTED", "true", "NOT REFUTED")
+    assert (wrong["id"], wrong["verdict"], right["id"], right["verdict"]) == ("false", "REFUTED", "true", "PROVED")
     assert {name: wrong["smallest"][name] for name in ("n", "m", "p")} == {"n": 1, "m": 1, "p": 1}
     assert wrong["smallest"]["system"]["G"] == [["0"]] and wrong["smallest"]["quantities"]["delay_known"] == 1
-    assert right["smallest"] is None and right["tried"]["exhausted"] is True
+    assert right["smallest"] is None and right["tried"]["exhausted"] is True and list(right["theorems"]) == ["lag_at_most_n"]
     assert wrong["hypotheses"][0]["dropped"] == "left_invertible" and right["hypotheses"] == []
     assert len(wrong["certificates"]) == 3 and all(len(one) == 64 for one in wrong["certificates"])
 

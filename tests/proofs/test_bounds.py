@@ -290,18 +290,18 @@ def claimed(bound: str, hypotheses: Sequence[str], box: dict[str, Any]) -> Any:
 def check(listed: Sequence[Bound], hypotheses: Sequence[str], box: dict[str, Any]) -> None:
     """Hold bounds against the other engine: each is not refuted as a claim, and the sharper ones are, by the same smallest system."""
     for bound in listed:
-        assert claimed(bound.text, hypotheses, box).verdict == Answered.NOT_REFUTED, bound.text
+        assert claimed(bound.text, hypotheses, box).verdict != Answered.REFUTED, bound.text
         assert bound.sharper[0].counterexample is not None and bound.sharper[0].counterexample.system == bound.first
         for certificate in bound.certificates:
             accept(certificate)
         for one in bound.sharper:
             answer = claimed(one.text, hypotheses, box)
             if one.counterexample is None:
-                assert answer.verdict == Answered.NOT_REFUTED, one.text
+                assert answer.verdict != Answered.REFUTED, one.text
             elif one.counterexample.smallest:
                 assert answer.counterexample.system == one.counterexample.system, one.text
             else:
-                assert answer.verdict == Answered.NOT_REFUTED or not answer.counterexample.smallest, one.text
+                assert answer.counterexample is None or not answer.counterexample.smallest, one.text
 
 
 @pytest.mark.parametrize(
@@ -318,7 +318,7 @@ def test_every_bound_is_what_claim_says_of_it(target: str, hypotheses: list[str]
     assert found.above and found.below
     check([*found.above, *found.below], hypotheses, {"total": 4})
     for text in found.equal:
-        assert claimed(text, hypotheses, {"total": 4}).verdict == Answered.NOT_REFUTED
+        assert claimed(text, hypotheses, {"total": 4}).verdict != Answered.REFUTED
 
 
 def test_a_claim_is_sharpened_to_what_willsky_shows() -> None:
@@ -366,7 +366,7 @@ def test_what_is_a_bound_in_the_box_alone_falls(all_outside: None) -> None:
     by = ["normal_rank", "observability_index", "rank(G)"]
     found = fs.conjecture("lag", by=by, box={"total": 4})
     assert "lag <= normal_rank + observability_index + rank(G)" not in [one.text for one in found.above]
-    assert claimed("lag <= normal_rank + observability_index + rank(G)", [], {"total": 4}).verdict == Answered.NOT_REFUTED
+    assert claimed("lag <= normal_rank + observability_index + rank(G)", [], {"total": 4}).verdict != Answered.REFUTED
 
 
 def test_a_broken_quantity_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:

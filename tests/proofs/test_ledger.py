@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 import faultspace.proofs.claims
-from faultspace.proofs.verdict.ledger import load
+from faultspace.proofs.brought.readings import readings
+from faultspace.proofs.verdict.ledger import IN_LANGUAGE, load
 from faultspace.proofs.verdict.verdicts import Verdict
 
 ROOM = Path(faultspace.proofs.claims.__file__).parent
@@ -23,8 +24,10 @@ def checks(path: Path) -> set[str]:
 
 
 def test_every_reading_has_its_check_and_every_check_its_reading() -> None:
-    named = {reading.check for claim in load() for reading in claim.readings}
+    every = {reading.check for claim in load() for reading in claim.readings}
+    named = {check for check in every if not check.startswith(f"{IN_LANGUAGE}.")}
     assert named == {check for path in ROOM.glob("*.py") for check in checks(path)}
+    assert {check.partition(".")[2] for check in every - named} <= readings().keys()
     for check in named:
         file, _, name = check.partition(".")
         assert callable(getattr(import_module(f"faultspace.proofs.claims.{file}"), name))
@@ -33,7 +36,7 @@ def test_every_reading_has_its_check_and_every_check_its_reading() -> None:
 def test_a_check_is_where_its_claim_is_unless_the_ledger_says_so() -> None:
     readings = {(claim.id, reading.id): reading.check for claim in load() for reading in claim.readings}
     assert readings["theorem-1", "n-samples"] == "theorem_1.n_samples"
-    assert readings["settle-2", "n"] == readings["assumption-4", "n-known"] == "assumption_4.n_known"
+    assert readings["settle-2", "n"] == readings["assumption-4", "n-known"] == "language.assumption-4--n-known"
 
 
 def test_every_file_of_checks_is_that_of_a_claim() -> None:

@@ -128,10 +128,11 @@ def test_an_answer_is_read_only_off_accepted_certificates(monkeypatch: pytest.Mo
 
 
 TASKS: list[Task] = [
-    *(Check(f"window_ranks.{name}") for name in ("ranks", "indices", "solutions", "limit")),
-    *(Check(f"theorem_2.{name}") for name in ("finite_zeros_only", "every_window", "pencil_zeros")),
-    Check("trajectory_recovered.state_unknown"),
-    Check("proposition_3.n_alone"),
+    *(Check(name) for name in ("window_ranks.ranks", "language.window-ranks--indices", "window_ranks.solutions")),
+    *(Check(f"language.theorem-2--{name}") for name in ("finite-zeros-only", "every-window", "pencil-zeros")),
+    Check("language.window-ranks--limit"),
+    Check("language.trajectory-recovered--state-unknown"),
+    Check("language.proposition-3--n-alone"),
     Check("objection_3.controllability_needed"),
     Without("gap"),
 ]
@@ -180,11 +181,11 @@ def test_only_what_a_reading_asks_is_certified(small: None, monkeypatch: pytest.
 
     monkeypatch.setattr(questions, "accept", watched)
     bench = Workbench("quick", 1, silent)
-    outcome = Check("proposition_3.n_alone").done(bench)
+    outcome = Check("language.proposition-3--n-alone").done(bench)
     assert outcome.verdict == "CERTIFIED" and len(kinds) == 2 * len(SAMPLE[::4])
     assert set(kinds) == {"window-ranks", "left-invertible", "not-left-invertible"}
-    assert Check("sharp_windows.gap").done(bench).verdict == "CERTIFIED" and len(kinds) == 2 * len(SAMPLE[::4])  # made once
-    assert Check("window_ranks.limit").done(bench).verdict == "CERTIFIED" and len(kinds) == (2 + 1 + 2 + 1) * len(SAMPLE[::4])
+    assert Check("language.sharp-windows--gap").done(bench).verdict == "CERTIFIED" and len(kinds) == 2 * len(SAMPLE[::4])  # made once
+    assert Check("language.window-ranks--limit").done(bench).verdict == "CERTIFIED" and len(kinds) == (2 + 1 + 2 + 1) * len(SAMPLE[::4])
 
 
 def test_an_interrupted_making_leaves_nothing_behind(small: None, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -198,10 +199,10 @@ def test_an_interrupted_making_leaves_nothing_behind(small: None, monkeypatch: p
         return real(question, kernel)
 
     monkeypatch.setattr(corpus, "answered", stopped)
-    check = Check("proposition_3.lag_exactly")
+    check = Check("language.proposition-3--lag-exactly")
     with pytest.raises(KeyboardInterrupt):
         check.done(bench)
-    assert check.done(bench) == Check("proposition_3.lag_exactly").done(Workbench("quick", 1, silent))
+    assert check.done(bench) == Check("language.proposition-3--lag-exactly").done(Workbench("quick", 1, silent))
     calls = 6
     with pytest.raises(KeyboardInterrupt):
         bench.examined(ONE_STATE, (SPACE,))
@@ -217,7 +218,7 @@ def test_a_refused_answer_is_an_error_of_those_who_ask_it_alone(small: None, mon
 
     monkeypatch.setattr(corpus, "answered", refused)
     bench = Workbench("quick", 1, silent)
-    assert Check("window_ranks.indices").done(bench).evidence == "the checker refused a certificate: not so"
+    assert Check("language.window-ranks--indices").done(bench).evidence == "the checker refused a certificate: not so"
     assert Check("window_ranks.solutions").done(bench).verdict == "CERTIFIED"
     assert bench.corpus_in_words.startswith("1 the paper's example") or "systems" in bench.corpus_in_words
 

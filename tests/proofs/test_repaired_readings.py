@@ -17,7 +17,7 @@ from faultspace.exact.limits.moments import covariances
 from faultspace.exact.structure.inversion import delay_unknown_state
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.windows import observability_matrix
-from faultspace.proofs.claims import trajectory_recovered
+from faultspace.proofs.brought.readings import decide_reading
 from faultspace.proofs.evidence.corpus import CORPUS, examine
 from faultspace.proofs.evidence.experiments import LimitEvidence, examine_experiment, nilpotent_points
 from faultspace.proofs.evidence.families import adversarial
@@ -132,7 +132,7 @@ def test_finite_zeros_count_with_multiplicity() -> None:
     assert len(found) == 2
     bench = Workbench("quick", 1, lambda stage, done, total: None)
     bench.put_answers(CORPUS, [examine(*one) for one in found])
-    outcome = trajectory_recovered.no_finite_zeros(bench)
+    outcome = decide_reading(bench, "trajectory-recovered--no-finite-zeros")
     assert outcome.verdict == Verdict.CERTIFIED
     for (_, system), evidence in zip(found, bench.corpus((RANKS, FINITE_ZEROS)), strict=True):
         hidden = system.n - rank(observability_matrix(system, system.n))

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import pytest
 
 from faultspace.base.errors import InvalidInput
 from faultspace.proofs import verification
+from faultspace.proofs.brought.readings import decide_reading
 from faultspace.proofs.evidence.corpus import CORPUS, examine
 from faultspace.proofs.evidence.questions import RANKS
 from faultspace.proofs.trust import checker
@@ -128,12 +127,9 @@ def test_only_accepted_certificates_are_shown() -> None:
         accepted([forged])
 
 
-@pytest.mark.parametrize("reading", ["n_known", "n_unknown", "lag"])
+@pytest.mark.parametrize("reading", ["n-known", "n-unknown", "lag"])
 def test_assumption_4_on_the_small_corpus(bench: Workbench, reading: str) -> None:
-    from faultspace.proofs.claims import assumption_4
-
-    check: Callable[[Workbench], Outcome] = getattr(assumption_4, reading)
-    assert check(bench).verdict == Verdict.CERTIFIED
+    assert decide_reading(bench, f"assumption-4--{reading}").verdict == Verdict.CERTIFIED
 
 
 def test_a_wrong_shape_of_the_rows_does_not_go_unnoticed(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,7 +12,7 @@ import pytest
 
 from faultspace.base import workers
 from faultspace.proofs import worlds
-from faultspace.proofs.claims import assumption_4
+from faultspace.proofs.brought import readings
 from faultspace.proofs.evidence import orbits_by_stages as stages
 from faultspace.proofs.evidence.corpus import Questions
 from faultspace.proofs.evidence.exhaustive import orbits
@@ -168,14 +168,14 @@ def test_what_all_of_it_takes_is_told_by_what_a_part_took() -> None:
 
 def test_what_fails_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     """A reading without its hypotheses fails on a unit that has systems which lack them, and so does one with a refused certificate."""
-    monkeypatch.setattr(worlds, "READINGS", ("assumption_4.lag",))
+    monkeypatch.setattr(worlds, "READINGS", ("language.assumption-4--lag",))
 
     def without(bench: Workbench, asks: Questions, applies: Test, holds: Test, show: Show) -> Outcome:
         return certify(bench, asks, lambda e: True, holds, show)
 
-    monkeypatch.setattr(assumption_4, "certify", without)
+    monkeypatch.setattr(readings, "certify", without)
     assert main([*ARGUMENTS, "--out", str(tmp_path / "world.jsonl")]) == 1
-    assert "assumption_4.lag: REFUTED, fails on" in capsys.readouterr().out
+    assert "language.assumption-4--lag: REFUTED, fails on" in capsys.readouterr().out
 
     def refused(origin: str, system: object, weight: int) -> object:
         raise Rejected("not so")
