@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import CancelledError
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from dataclasses import dataclass
@@ -114,19 +115,29 @@ def _by_cluster(function: Callable[..., Result], tasks: Sequence[Task], address:
                     yield k, future.result()
                 except KilledWorker as error:
                     yield k, Died(" ".join(str(error).split()))
+                except (OSError, CancelledError):
+                    if future.status == "error":  # the function's own
+                        raise
+                    raise _lost(address) from None
 
 
 def _done(client: Any, futures: list[Any], address: str) -> list[Any]:
     """Wait until some are done, and return them. Raises InvalidData where nothing can come any more."""
     from distributed import wait
 
-    without = 0.0
-    while without < workers.PATIENCE:
-        with suppress(TimeoutError, OSError):
+    idle = 0.0
+    while idle < workers.PATIENCE:
+        with suppress(TimeoutError, OSError, CancelledError):
             wait(futures, timeout=LOOK, return_when="FIRST_COMPLETED")
-        if client.status != "running" or any(future.status in ("lost", "cancelled") for future in futures):
-            raise InvalidData(f"cluster: the scheduler at {address} was lost; start it again, and its workers")
-        if done := [future for future in futures if future.status != "pending"]:
+        statuses = [future.status for future in futures]
+        if client.status != "running" or "cancelled" in statuses:
+            raise _lost(address)
+        if done := [future for future, status in zip(futures, statuses, strict=True) if status not in ("pending", "lost")]:
             return done
-        without = 0.0 if client.nthreads() else without + LOOK
-    raise InvalidData(f"cluster: the scheduler at {address} has had no worker for {workers.PATIENCE} s; start: dask worker {address}")
+        # What is lost, with the worker that had it, is done again where there is one.
+        idle = 0.0 if "pending" in statuses and client.nthreads() else idle + LOOK
+    raise InvalidData(f"cluster: the scheduler at {address} has done nothing for {workers.PATIENCE} s; start: dask worker {address}")
+
+
+def _lost(address: str) -> InvalidData:
+    return InvalidData(f"cluster: the scheduler at {address} was lost; start it again, and its workers")

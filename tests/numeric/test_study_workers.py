@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import signal
+import socket
+import subprocess
 import sys
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -57,6 +59,33 @@ def test_a_cluster_gives_the_same_cases_and_only_its_scheduler_counts() -> None:
         spread = monte_carlo(CORRECTED, systems=6, seed=4, samples=300, cluster=address, on_progress=lambda *each: seen.append(each[1]))
     assert seen == [0, 1, 2, 3, 4, 5, 6]
     assert_same(monte_carlo(CORRECTED, systems=6, seed=4, samples=300, jobs=1), spread)
+
+
+@pytest.mark.slow
+def test_a_worker_of_a_cluster_that_is_killed_is_replaced_and_a_lost_scheduler_is_one_line(tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    tasks = [(k, tmp_path / "once") for k in range(3, 20)]
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
+        found = dict(done_by(killed, tasks, worth=1, cluster=cluster.scheduler_address))
+    assert found == {k - 3: k * k for k in range(3, 20)}
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = str(free.getsockname()[1])
+    address, line = f"tcp://127.0.0.1:{port}", [sys.executable, "-m"]
+    scheduler = subprocess.Popen([*line, "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", port, "--no-dashboard"])
+    worker = subprocess.Popen([*line, "distributed.cli.dask_worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard"])
+    try:
+        came = 0
+        with pytest.raises(InvalidData, match=f"the scheduler at {address} was lost"):
+            for _ in done_by(squared, [(k,) for k in range(10**5)], worth=1, cluster=address):
+                came += 1
+                if came == 5:
+                    scheduler.kill()
+        assert came >= 5
+    finally:
+        for process in (scheduler, worker):
+            process.kill()
+            process.wait()
 
 
 def test_without_a_scheduler_there_one_line_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
