@@ -16,6 +16,7 @@ from concurrent.futures import CancelledError
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from dataclasses import dataclass
+from importlib import import_module
 from itertools import islice
 from typing import Any, TypeVar
 
@@ -100,9 +101,9 @@ def _numbered(function: Callable[..., Result], k: int, task: Task) -> tuple[int,
 
 def _by_cluster(function: Callable[..., Result], tasks: Sequence[Task], address: str) -> Iterator[tuple[int, Result | Died]]:
     with workers.client(address) as client:
-        from distributed import KilledWorker
-
-        numbers, waiting = {}, iter(range(len(tasks)))
+        distributed: Any = import_module("distributed")
+        waiting = iter(range(len(tasks)))
+        numbers: dict[Any, int] = {}
         room = AHEAD * max(1, sum(client.nthreads().values()))
         while True:
             for k in islice(waiting, room - len(numbers)):
@@ -113,7 +114,7 @@ def _by_cluster(function: Callable[..., Result], tasks: Sequence[Task], address:
                 k = numbers.pop(future)
                 try:
                     yield k, future.result()
-                except KilledWorker as error:
+                except distributed.KilledWorker as error:
                     yield k, Died(" ".join(str(error).split()))
                 except (OSError, CancelledError):
                     if future.status == "error":  # the function's own
@@ -123,8 +124,7 @@ def _by_cluster(function: Callable[..., Result], tasks: Sequence[Task], address:
 
 def _done(client: Any, futures: list[Any], address: str) -> list[Any]:
     """Wait until some are done, and return them. Raises InvalidData where nothing can come any more."""
-    from distributed import wait
-
+    wait: Any = import_module("distributed").wait
     idle = 0.0
     while idle < workers.PATIENCE:
         with suppress(TimeoutError, OSError, CancelledError):

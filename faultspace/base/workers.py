@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
+from importlib import import_module
 from typing import Any
 
 import joblib
@@ -65,11 +66,11 @@ def client(address: str) -> Iterator[Any]:
 
 def _client(address: str) -> AbstractContextManager[Any]:
     try:
-        from distributed import Client
+        distributed: Any = import_module("distributed")
     except ImportError:
         raise InvalidData("cluster: the package distributed is missing; pip install 'faultspace[cluster]'") from None
     try:
-        opened: AbstractContextManager[Any] = Client(address, timeout=PATIENCE)
+        opened: AbstractContextManager[Any] = distributed.Client(address, timeout=PATIENCE)
     except (OSError, ValueError, TypeError) as error:
         reason = " ".join(str(error).split()) or type(error).__name__
         raise InvalidData(f"cluster: no Dask scheduler answers at {address!r} ({reason}); an address is like tcp://HOST:8786") from None

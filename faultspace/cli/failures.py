@@ -43,7 +43,7 @@ class Terminated(KeyboardInterrupt):
 def terminable() -> Iterator[None]:
     """Raise Terminated where SIGTERM or SIGHUP comes, unless somebody else hears or ignores it; a second one is not heard while the first
     is dealt with."""
-    taken = []
+    taken: list[signal.Signals] = []
 
     def terminate(number: int, _: FrameType | None) -> None:
         for each in taken:

@@ -10,7 +10,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -257,7 +257,7 @@ def test_cases_of_other_settings_and_files_of_others_are_left_as_they_are(tmp_pa
     assert "numpy" in study(tmp_path, "--resume").err
 
 
-def fails_at_two(numbered: list[Numbered], samples: int) -> list[Case]:
+def fails_at_two(numbered: Sequence[Numbered], samples: int) -> list[Case]:
     if any(index == 2 for index, _ in numbered):
         raise RuntimeError("the third\nsystem")
     return one_by_one(published_case, numbered, samples)
@@ -279,7 +279,7 @@ def test_a_case_that_fails_is_a_row_with_its_reason(tmp_path: Path, monkeypatch:
 
 @pytest.mark.usefixtures("without_figures")
 def test_a_study_of_which_nothing_is_left_is_told_as_well(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def fails(numbered: list[Numbered], samples: int) -> list[Case]:
+    def fails(numbered: Sequence[Numbered], samples: int) -> list[Case]:
         raise MemoryError
 
     for name, plan in STUDIES.items():

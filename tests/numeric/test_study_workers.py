@@ -7,6 +7,7 @@ import signal
 import socket
 import subprocess
 import sys
+from collections.abc import Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
 
@@ -140,7 +141,7 @@ def test_a_task_that_always_kills_its_process_is_given_up_and_the_others_are_don
     assert found == {k: k * k for k in range(12) if k != 2}
 
 
-def kills(numbered: list[Numbered], samples: int) -> list[Case]:
+def kills(numbered: Sequence[Numbered], samples: int) -> list[Case]:
     if any(index == 2 for index, _ in numbered):
         os.kill(os.getpid(), signal.SIGKILL)
     return one_by_one(published_case, numbered, samples)
