@@ -1,6 +1,8 @@
 """This opens the processes of this machine, or the workers of a Dask cluster, for tasks of joblib.
 
-    pool     the one or the other
+    pool       the one or the other; the processes end when this one does, even if it is killed
+    unordered  processes whose results come as they are done
+    client     a client of the cluster, for what does without joblib
 
 The cluster is Dask's, through joblib; `distributed` is needed for it alone. Its workers must have this package installed, in the same
 version.
@@ -10,11 +12,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
+from importlib import import_module
 from typing import Any
 
 import joblib
 
 from .errors import InvalidData
+from .processes import end_with_parent
 
 # Seconds until a scheduler answers, and until it has a worker.
 PATIENCE = 20
@@ -22,40 +26,52 @@ PATIENCE = 20
 
 def pool(count: int, cluster: str | None) -> AbstractContextManager[joblib.Parallel]:
     """Return so many processes of this machine, or the workers of the Dask scheduler at the address `cluster`, for as long as it is open.
+    Results come in the order of the tasks.
 
     Raises InvalidData, when it is opened, for a cluster that cannot be used.
     """
-    return _processes(count) if cluster is None else _cluster(cluster)
+    return _processes(return_as="generator", n_jobs=count) if cluster is None else _cluster(cluster)
+
+
+def unordered(count: int) -> AbstractContextManager[joblib.Parallel]:
+    """Return so many processes of this machine, which take tasks one by one; a result comes as soon as it is there."""
+    return _processes(return_as="generator_unordered", n_jobs=count, batch_size=1)
 
 
 @contextmanager
-def _processes(count: int) -> Iterator[joblib.Parallel]:
+def _processes(**settings: Any) -> Iterator[joblib.Parallel]:
     # One BLAS thread a worker: the matrices are small and the cores are taken.
-    with joblib.parallel_config(backend="loky", inner_max_num_threads=1):
-        yield joblib.Parallel(n_jobs=count, return_as="generator")
+    with joblib.parallel_config(backend="loky", inner_max_num_threads=1, initializer=end_with_parent):
+        yield joblib.Parallel(**settings)
 
 
 @contextmanager
 def _cluster(address: str) -> Iterator[joblib.Parallel]:
-    with _client(address) as client:
+    with client(address), joblib.parallel_config(backend="dask"):
+        yield joblib.Parallel(n_jobs=-1, return_as="generator")
+
+
+@contextmanager
+def client(address: str) -> Iterator[Any]:
+    """Return a `distributed.Client` of the scheduler at this address, which has one worker or more. Raises InvalidData."""
+    with _client(address) as opened:
         try:
-            client.wait_for_workers(1, timeout=PATIENCE)
+            opened.wait_for_workers(1, timeout=PATIENCE)
         except TimeoutError:
             raise InvalidData(
                 f"cluster: the scheduler at {address} has no worker after {PATIENCE} s; start: dask worker {address}"
             ) from None
-        with joblib.parallel_config(backend="dask"):
-            yield joblib.Parallel(n_jobs=-1, return_as="generator")
+        yield opened
 
 
 def _client(address: str) -> AbstractContextManager[Any]:
     try:
-        from distributed import Client
+        distributed: Any = import_module("distributed")
     except ImportError:
         raise InvalidData("cluster: the package distributed is missing; pip install 'faultspace[cluster]'") from None
     try:
-        client: AbstractContextManager[Any] = Client(address, timeout=PATIENCE)
+        opened: AbstractContextManager[Any] = distributed.Client(address, timeout=PATIENCE)
     except (OSError, ValueError, TypeError) as error:
         reason = " ".join(str(error).split()) or type(error).__name__
         raise InvalidData(f"cluster: no Dask scheduler answers at {address!r} ({reason}); an address is like tcp://HOST:8786") from None
-    return client
+    return opened

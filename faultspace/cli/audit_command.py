@@ -70,6 +70,12 @@ def audit(
     memory: Annotated[
         float, typer.Option(metavar="GIB", parser=number(float, 0.5, 4, 1e6), help="How much memory a check may take.")
     ] = 4.0,
+    environment: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--env", metavar="NAME", help="It sees this variable of the environment, too; * is all; repeatable.", show_default=False
+        ),
+    ] = None,
     quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print a line a cause, and the count.")] = False,
     verbose: Annotated[int, typer.Option("-v", "--verbose", count=True, help="Print a row a slug, too; -vv: a row a check.")] = 0,
     json: Json = False,
@@ -82,7 +88,7 @@ def audit(
     """
     from . import auditing
 
-    subject = auditing.Asked(adapter, command, peer, tuple(check or ()), seed, quick, timeout, memory)
+    subject = auditing.Asked(adapter, command, peer, tuple(check or ()), seed, quick, timeout, memory, tuple(environment or ()))
     if peers:
         return auditing.list_peers(as_json=json)
     if listed:

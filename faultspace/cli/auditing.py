@@ -48,11 +48,12 @@ class Asked:
     quick: bool
     seconds: float
     gibibytes: float
+    environment: tuple[str, ...] = ()
 
     @property
     def limits(self) -> Limits:
         """These are the limits of a check."""
-        return Limits(self.seconds, int(self.gibibytes * 2**30))
+        return Limits(self.seconds, int(self.gibibytes * 2**30), self.environment)
 
 
 def performed(asked: Asked, expected: Path | None) -> Audit:
@@ -69,6 +70,7 @@ def performed(asked: Asked, expected: Path | None) -> Audit:
             expected=known,
             seconds=asked.seconds,
             gibibytes=asked.gibibytes,
+            environment=asked.environment,
             on_progress=tell,
         )
 

@@ -21,7 +21,7 @@ from .. import __version__
 from ..base.errors import InvalidInput
 from ..base.messages import say
 from .audit_command import audit
-from .failures import BAD_INPUT, INTERRUPTED, asks_report, guarded
+from .failures import BAD_INPUT, INTERRUPTED, STOPPED, Terminated, asks_report, guarded, terminable
 from .option_types import Effort, Expected, Floats, Json, OneSystem, Plain, Verbose, in_our_words, jobs_number, number
 
 Given = ParamSpec("Given")
@@ -31,7 +31,7 @@ app = typer.Typer(
     help="Exact verdicts on the claims of a paper about systems with additive faults, and exact answers about your own system.",
     epilog="A SYSTEM is a JSON file, - for standard input, or example:NAME (see: faultspace examples). "
     "Exit codes: 0 answered as expected, 1 not as expected, 2 bad input, 3 from check: verified under an assumption that is told, "
-    "70 an error of ours, 130 interrupted.",
+    "70 an error of ours, 130 interrupted, 143 terminated.",
     add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
@@ -61,17 +61,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return BAD_INPUT
     try:
         given = list(sys.argv[1:] if arguments is None else arguments)
-        code = parser()(args=given, prog_name="faultspace", standalone_mode=False)
-        if code == INTERRUPTED:
-            say("interrupted")
+        with terminable():
+            code = parser()(args=given, prog_name="faultspace", standalone_mode=False)
+        if code in STOPPED:
+            say(STOPPED[code])
         return code if isinstance(code, int) else 0
     except _UsageError as error:
         context = getattr(error, "ctx", None)
         say(f"{in_our_words(error.format_message())} (see: {context.command_path if context else 'faultspace'} --help)")
         return BAD_INPUT
-    except (KeyboardInterrupt, typer.Abort):
-        say("interrupted")
-        return INTERRUPTED
+    except (KeyboardInterrupt, typer.Abort) as error:
+        code = error.code if isinstance(error, Terminated) else INTERRUPTED
+        say(STOPPED[code])
+        return code
     except Exception as error:  # before a command's body was reached
         return asks_report(error)
 
@@ -466,20 +468,27 @@ def monte_carlo(
         int | None,
         typer.Option(metavar="K", parser=jobs_number, help="Processes at a time.", show_default="as many cores as are worth it"),
     ] = None,
-    dask: Annotated[str | None, typer.Option(metavar="ADDRESS", help="Work on the Dask cluster with this scheduler instead.")] = None,
+    scheduler: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="Work on the Dask cluster with this scheduler instead.", show_default=False)
+    ] = None,
+    dask: Annotated[str | None, typer.Option(hidden=True)] = None,  # the name that it had
     seed: Annotated[
         int, typer.Option(metavar="K", parser=number(int, 0, 1907), help="Equal seeds give equal results, whoever does the work.")
     ] = 1907,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with what an unfinished run has kept in DIR, if one has.")] = False,
     json: Json = False,
 ) -> int:
     """Repeat the paper's Monte Carlo study.
 
     It is run as published, with its vacuous cases marked, and as corrected, each with the true and with an identified model.
+    Each case is kept in DIR as it comes: --resume goes on where a run was stopped, and ends with the same files.
     DIR may hold what an earlier run wrote, which is replaced; a file of the same name that is not ours is never touched, but refused.
     """
     from . import studying
 
-    return studying.run(systems=systems, samples=samples, jobs=jobs, cluster=dask, seed=seed, out=out, as_json=json)
+    return studying.run(
+        systems=systems, samples=samples, jobs=jobs, scheduler=scheduler or dask, seed=seed, out=out, resume=resume, as_json=json
+    )
 
 
 _command()(audit)

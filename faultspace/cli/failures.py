@@ -3,25 +3,63 @@
 guarded       runs a command's body and returns its exit code
 asks_report   reports an error that is ours, with what to send; the code OUR_ERROR
 TRACEBACK     the environment variable that has the traceback of an error of ours printed, too
-ANSWERED 0, NOT_AS_EXPECTED 1, BAD_INPUT 2; OUR_ERROR 70 as in sysexits.h; INTERRUPTED 130 and BROKEN_PIPE 141 as shells count signals
+terminable    a context in which a request to end, such as SIGTERM, comes as Terminated: what was begun is ended and put away
+ANSWERED 0, NOT_AS_EXPECTED 1, BAD_INPUT 2; OUR_ERROR 70 as in sysexits.h; HUNG_UP 129, INTERRUPTED 130, BROKEN_PIPE 141, TERMINATED 143 as
+shells count signals; STOPPED what is said of those that a signal stopped
 """
 
 from __future__ import annotations
 
 import os
 import platform
+import signal
 import sys
 import traceback
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from threading import current_thread, main_thread
+from types import FrameType
 
 from .. import __version__
 from ..base.errors import InvalidInput
 from ..base.messages import LONGEST_LINE, say
 from .argument_names import as_options
 
-ANSWERED, NOT_AS_EXPECTED, BAD_INPUT, OUR_ERROR, INTERRUPTED, BROKEN_PIPE = 0, 1, 2, 70, 130, 141
+ANSWERED, NOT_AS_EXPECTED, BAD_INPUT, OUR_ERROR = 0, 1, 2, 70
+HUNG_UP, INTERRUPTED, BROKEN_PIPE, TERMINATED = 129, 130, 141, 143
+STOPPED = {HUNG_UP: "hung up", INTERRUPTED: "interrupted", TERMINATED: "terminated"}
 TRACEBACK = "FAULTSPACE_TRACEBACK"
+
+
+class Terminated(KeyboardInterrupt):
+    """A signal asks us to end; whatever puts things away at an interrupt does it now, too."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.code = 128 + number
+
+
+@contextmanager
+def terminable() -> Iterator[None]:
+    """Raise Terminated where SIGTERM or SIGHUP comes, unless somebody else hears or ignores it; a second one is not heard while the first
+    is dealt with."""
+    taken: list[signal.Signals] = []
+
+    def terminate(number: int, _: FrameType | None) -> None:
+        for each in taken:
+            signal.signal(each, signal.SIG_IGN)
+        raise Terminated(number)
+
+    if current_thread() is main_thread():
+        ends = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+        taken = [each for each in ends if signal.getsignal(each) is signal.SIG_DFL]
+        for each in taken:
+            signal.signal(each, terminate)
+    try:
+        yield
+    finally:
+        for each in taken:
+            signal.signal(each, signal.SIG_DFL)
 
 
 def guarded(body: Callable[[], int]) -> int:
@@ -36,6 +74,8 @@ def guarded(body: Callable[[], int]) -> int:
     except MemoryError:
         say("got a task that does not fit into memory, expected a smaller one")
         return BAD_INPUT
+    except Terminated as error:
+        return error.code
     except KeyboardInterrupt:  # the command line says so, as of an interrupt that comes before the body
         return INTERRUPTED
     except BrokenPipeError:

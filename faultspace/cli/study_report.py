@@ -26,11 +26,12 @@ from ..base.sheets import counted
 from ..numeric.report.folders import refuse, replace
 from ..numeric.study.cases import LIKELIHOOD
 from ..numeric.study.groups import QUANTILES, Group, by_phase, by_zeros
+from ..numeric.study.keeping import TEMPORARY
 from ..numeric.study.studies import STUDIES, Study
 
 DOCUMENT, CASES, SUMMARY = "studies.json", "cases.csv", "summary.md"
 NAMES = (DOCUMENT, CASES, SUMMARY, *(f"figure-{name}.png" for name in STUDIES))
-FORMAT = "faultspace-monte-carlo/1"
+FORMAT = "faultspace-monte-carlo/2"
 ROUNDING = 1e-13
 OTHER_QUANTILES = tuple(q for q in QUANTILES if q != 0.5)
 HEADER = (
@@ -70,6 +71,12 @@ def remarks(studies: Sequence[Study]) -> list[str]:
                 f"{name}: {len(vacuous)} of {len(study.cases)} cases are vacuous: rank R_{first.block_rows} = {first.rank} of "
                 f"{first.rows} rows leaves no null row, so the answer is all of R^{first.n_z} and the error zero by construction"
             )
+        if study.failed:
+            first_failed = study.failed[0]
+            failed = f"{counted(len(study.failed), 'case')} of {len(study.cases) + len(study.failed)} failed, and no table has them"
+            found.append(f"{name}: {failed}; system {first_failed.index}, the first, because: {first_failed.reason}")
+        if not study.cases:
+            continue
         level = sum(case.decibels for case in study.cases) / len(study.cases)
         found.append(f"{name}: the noise lies {level:.1f} dB below the outputs' standard deviation (40 dB are stated)")
         if LIKELIHOOD in study.plan.estimators:
@@ -101,7 +108,7 @@ def lines(studies: Sequence[Study]) -> Iterator[str]:
     yield "# The Monte Carlo study"
     yield ""
     yield (
-        f"{counted(len(first.cases), 'system')}, seed {first.seed}, "
+        f"{counted(len(first.cases) + len(first.failed), 'system')}, seed {first.seed}, "
         f"{counted(first.samples, 'sample')}; the same systems and faults in each study."
     )
     yield f"Errors in percent. {EXPLANATION[0].upper()}{EXPLANATION[1:]}."
@@ -109,7 +116,7 @@ def lines(studies: Sequence[Study]) -> Iterator[str]:
         yield ""
         yield f"## {study.plan.title}"
         yield ""
-        yield f"Error: {study.plan.metric_text}. Took {study.seconds:.2f} s."
+        yield f"Error: {study.plan.metric_text}."
         yield ""
         yield f"| cases | {' | '.join(HEADER)} |"
         yield "|---|" + "".join("---|" if heading in LEFT else "---:|" for heading in HEADER)
@@ -128,7 +135,7 @@ def write(studies: Sequence[Study], out: Path) -> list[str]:
     file of these names that no earlier run wrote, or that was changed since."""
     refuse(out, NAMES)
     try:
-        with tempfile.TemporaryDirectory(prefix=".unfinished-", dir=out) as name:
+        with tempfile.TemporaryDirectory(prefix=f"{TEMPORARY}-", dir=out) as name:
             folder = Path(name)
             (folder / DOCUMENT).write_text(json.dumps(document(studies), indent=1) + "\n", encoding="utf-8")
             _write_cases(studies, folder / CASES)
@@ -164,7 +171,7 @@ def _percent(value: float | None, digits: int = 3) -> str:
 
 
 def _write_cases(studies: Sequence[Study], path: Path) -> None:
-    """Write a row for each estimate of each case of each study."""
+    """Write a row for each estimate of each case of each study, then one for each case that failed, with its index and the reason."""
     plain = ("index", "n_zeros", "minimum_phase", "distance_to_unit_circle", "decibels", "block_rows", "rows", "rank", "n_z", "vacuous")
     with open(path, "w", encoding="utf-8", newline="") as stream:
         rows = csv.writer(stream, lineterminator="\n")
@@ -177,6 +184,8 @@ def _write_cases(studies: Sequence[Study], path: Path) -> None:
                 for name, estimate in case.estimates.items():
                     errors = [getattr(estimate.errors, metric) if estimate.errors else "" for metric in METRICS]
                     rows.writerow((*system, name, estimate.n_z, *errors, *random, estimate.failure or ""))
+            for failed in study.failed:
+                rows.writerow((study.plan.name, failed.index, *[""] * (len(plain) + len(found) - 1), failed.reason))
 
 
 def _draw(studies: Sequence[Study], folder: Path) -> None:
@@ -189,4 +198,6 @@ def _draw(studies: Sequence[Study], folder: Path) -> None:
     from ..numeric.study.plots import study_figure
 
     for study in studies:
+        if not study.cases:
+            continue
         study_figure(study).savefig(folder / f"figure-{study.plan.name}.png", dpi=130)

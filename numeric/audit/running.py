@@ -44,6 +44,7 @@ def audit(
     expected: Sequence[ExpectedFailure] = (),
     seconds: float = SECONDS,
     gibibytes: float = GIBIBYTES,
+    environment: Sequence[str] = (),
     on_progress: Progress | None = None,
 ) -> Audit:
     """Audit an implementation of subspace identification and fault estimation, of anyone's, by checks with exactly known answers.
@@ -56,14 +57,16 @@ def audit(
     trouble (0: those that come with the package), and `quick` takes a part, of every check the first vector and of every kind of trouble
     all; `expected` lists failures that are known; `on_progress(name, done, total)` hears of the progress.
 
-    What has a name runs in a process of its own, where a check (of a program: an answer) may take `seconds` and hold `gibibytes`; an
+    What has a name runs in a process of its own, where a check (of a program: an answer) may take `seconds` and hold `gibibytes`, and which
+    sees of the environment what any program needs (PATH, HOME, the language) and the variables named in `environment`, "*" for all; an
     object runs in this process, and nothing limits it. What the functions do, this never raises. Failures are explained where a
     computation shows what is wrong, in at most as much time as the checks took. The Audit is a sequence of results, one
     a check: `verdict`, and what was `got` beside the `bound`; it has `failed`, `summary()` and `to_json()`. Source: the checks take their
     truth from [G25] and the claims of this library.
 
     Raises InvalidData for an implementation that cannot be reached, has none of the functions or one that takes other arguments, for
-    names of checks that do not exist, for a `seed` that is no natural number, and for `seconds` or `gibibytes` that are not positive.
+    names of checks that do not exist, for a `seed` that is no natural number, for `seconds` or `gibibytes` that are not positive, and for
+    an `environment` that is no list of names.
 
     >>> import faultspace as fs
     >>> from faultspace.numeric.audit import reference
@@ -81,7 +84,10 @@ def audit(
     only = [only] if isinstance(only, str) else only
     if not isinstance(only, Collection):
         raise InvalidData(f"only: got {shorten(only)}, expected a list of names of checks")
-    with opened(adapter, command, peer, Limits(seconds, int(gibibytes * 2**30)), seed) as subject:
+    environment = [environment] if isinstance(environment, str) else environment
+    if not isinstance(environment, Collection) or not all(isinstance(one, str) for one in environment):
+        raise InvalidData(f"environment: got {shorten(environment)}, expected a list of names of variables")
+    with opened(adapter, command, peer, Limits(seconds, int(gibibytes * 2**30), tuple(environment)), seed) as subject:
         todo = _todo(subject, only, expected, seed, quick)
         heard, results = on_progress or silent, []
         for done, check in enumerate(todo):

@@ -3,8 +3,10 @@
     published_case, corrected_case               with the true A, B, C, D
     identified_case, corrected_identified_case   with A, B, C, D from PI-MOESP on the same data
     one_by_one                                   the cases of these indices and seeds, one after the other
+    attempted                                    the cases of these indices and seeds, a Failed for each that raised
     Numbered                                     an index with the seed of its case
     Case                                         the system's zeros, the noise, an estimate for each estimator, a random subspace
+    Failed                                       in the place of a case that there is not: its index, and why
     Estimate                                     of one estimator: its dimension and errors
     Errors                                       the same angles in three metrics
     PAPER                                        the published factorisation, which is told the rank of R_s and n_z
@@ -96,6 +98,14 @@ class Case:
         return len(self.zeros)
 
 
+@dataclass(frozen=True)
+class Failed:
+    """The case could not be done: `reason` says why on one line. An estimate that was refused is none of these, but has its own reason."""
+
+    index: int
+    reason: str
+
+
 @one_thread()
 def published_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
     """Estimate a case as published: s = 5, the noise that is called 1 %, true matrices, the residual from a random initial state."""
@@ -145,6 +155,16 @@ def seeds_of_parts(seed: np.random.SeedSequence) -> list[np.random.SeedSequence]
 def one_by_one(case: Callable[[int, np.random.SeedSequence, int], Case], numbered: Sequence[Numbered], samples: int) -> list[Case]:
     """Return case(index, seed, samples) for each index and seed, in their order."""
     return [case(index, seed, samples) for index, seed in numbered]
+
+
+def attempted(cases: Callable[[Sequence[Numbered], int], list[Case]], numbered: Sequence[Numbered], samples: int) -> list[Case | Failed]:
+    """Return cases(numbered, samples), where that raises those of each index alone, and a Failed for each that still raises."""
+    try:
+        return list(cases(numbered, samples))
+    except Exception as error:
+        if len(numbered) == 1:
+            return [Failed(numbered[0][0], " ".join(f"{type(error).__name__}: {error}".split()))]
+    return [one for each in numbered for one in attempted(cases, [each], samples)]
 
 
 def _with_true_model(

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.special
 
-from .cases import PAPER, Case, Numbered
+from .cases import PAPER, Case, Failed, Numbered
 
 QUANTILES = (0.1, 0.25, 0.5, 0.75, 0.9)  # that a table shows
 CONFIDENCE = 0.95  # of its intervals
@@ -65,13 +65,14 @@ class Group:
 
 @dataclass(frozen=True, repr=False)
 class StudyCases:
-    """These are the cases of a study in order, with its plan; `seconds` is the time taken."""
+    """These are the cases of a study in order, with its plan, and those that could not be done; `seconds` is the time taken."""
 
     plan: Plan
     seed: int
     samples: int
     cases: tuple[Case, ...]
     seconds: float
+    failed: tuple[Failed, ...] = ()
 
     def error(self, case: Case, estimator: str = PAPER) -> float | None:
         """Return the study's error of a case by an estimator; None where there is no estimate."""

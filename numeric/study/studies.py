@@ -30,24 +30,36 @@ with the cases of a shorter one, and all studies see the same systems and faults
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
-from itertools import chain
 from typing import Any
 
 import numpy as np
 
 from ...base.errors import InvalidData, shorten
 from ...base.progress import Progress, silent
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted
+from ...base.tasks import Died
 from ..data.validation import positive
 from .case_stacks import published_cases
-from .cases import LAWS, LIKELIHOOD, PAPER, corrected_case, corrected_identified_case, identified_case, one_by_one
+from .cases import (
+    LAWS,
+    LIKELIHOOD,
+    PAPER,
+    Case,
+    Failed,
+    Numbered,
+    attempted,
+    corrected_case,
+    corrected_identified_case,
+    identified_case,
+    one_by_one,
+)
 from .groups import Group, Plan, StudyCases, by_phase, by_zeros
 from .plots import errors_by_zeros
 from .runs import SAMPLES
-from .workers import in_order
+from .workers import done_by
 
 SEED = 1907
 
@@ -92,7 +104,8 @@ STUDIES = {plan.name: plan for plan in (PUBLISHED, IDENTIFIED, CORRECTED, CORREC
 
 @dataclass(frozen=True, repr=False)
 class Study(StudyCases, Shown):
-    """The study is a plan carried out on so many systems: `cases` in order, `seed`, `samples` of each record, `seconds` taken.
+    """The study is a plan carried out on so many systems: `cases` in order, `failed` for those that could not be done, `seed`, `samples` of
+    each record, `seconds` taken.
 
     `summary()` tells people the errors, `plot()` draws them, and `to_json()` hands everything to other programs. Raises ImportError in
     `plot()` without matplotlib. Source: [G25] section V.
@@ -108,13 +121,15 @@ class Study(StudyCases, Shown):
         yield "plan", self.plan.title
         yield "error", self.plan.metric_text
         yield "records", f"{self.samples} samples each, seed {self.seed}"
+        if self.failed:
+            yield "failed", f"{counted(len(self.failed), 'case')}, the first because: {self.failed[0].reason}"
         for heading, groups in (("errors by number of finite zeros", by_zeros(self)), ("errors by phase", by_phase(self))):
             yield heading, ""
             for group in groups:
                 yield f"{group.label}, {group.estimator}", _in_words(group)
 
     def to_json(self) -> dict[str, Any]:
-        """Return a JSON-ready record: settings, tables, cases. Equal studies give equal records but for "seconds"."""
+        """Return a JSON-ready record: settings, tables, cases. Equal studies give equal records."""
         plan = self.plan
         return {
             "name": plan.name,
@@ -124,12 +139,12 @@ class Study(StudyCases, Shown):
             "estimators": list(plan.estimators),
             "seed": self.seed,
             "samples": self.samples,
-            "systems": len(self.cases),
+            "systems": len(self.cases) + len(self.failed),
             "vacuous": sum(case.vacuous for case in self.cases),
-            "seconds": round(self.seconds, 3),
             "by_zeros": [asdict(group) for group in by_zeros(self)],
             "by_phase": [asdict(group) for group in by_phase(self)],
             "cases": [asdict(case) for case in self.cases],
+            "failed": [asdict(each) for each in self.failed],
         }
 
     def plot(self, ax: Any = None) -> Any:
@@ -146,6 +161,8 @@ def monte_carlo(
     samples: int = SAMPLES,
     jobs: int | None = None,
     cluster: str | None = None,
+    known: Mapping[int, Case] | None = None,
+    on_cases: Callable[[Sequence[Case | Failed]], None] | None = None,
     on_progress: Progress | None = None,
 ) -> Study:
     """Run the paper's Monte Carlo study: how far the estimated fault space lies from the true one, over many random systems.
@@ -154,9 +171,13 @@ def monte_carlo(
     "corrected", "corrected-identified". `systems` random systems are drawn, a quarter for each number of zeros from 0 to 3, with records of
     `samples` samples each; equal seeds give equal cases. `jobs` processes share the work (None: all cores, as far as they are worth their
     start), or the Dask cluster whose scheduler is at the address `cluster`; the results are the same. `on_progress` is called with (name
-    of the plan, done, total) as cases come in. The Study has `cases`, whose errors are fractions of the metric's maximum, `summary()`,
-    `plot()` and `to_json()`.
+    of the plan, done, total) as cases come in, and `on_cases` with the cases themselves, in the order in which they come, so that they can
+    be kept; what was kept of a study with the same plan, seed and samples is `known`, by index, and not done again. The Study has `cases`,
+    whose errors are fractions of the metric's maximum, `summary()`, `plot()` and `to_json()`.
     Source: [G25] section V; [YL16] for the distances.
+
+    A process that is killed is replaced, and its cases are done again. A case that raises, or whose process ends each time, is one of
+    `failed`, with the reason.
 
     Raises InvalidData for an unknown plan, for numbers out of range and for a cluster that cannot be used.
 
@@ -177,16 +198,35 @@ def monte_carlo(
     if seed < 0:
         raise InvalidData(f"seed: got {seed}; a whole number from 0 on is needed")
     start = time.perf_counter()
-    numbered = list(enumerate(np.random.SeedSequence(seed).spawn(systems)))
-    tasks = [(numbered[first : first + plan.stack], samples) for first in range(0, systems, plan.stack)]
-
-    def in_systems(stage: str, done: int, _: int) -> None:
-        heard(stage, min(done * plan.stack, systems), systems)
-
+    found: dict[int, Case | Failed] = {index: case for index, case in (known or {}).items() if 0 <= index < systems}
+    left = [each for each in enumerate(np.random.SeedSequence(seed).spawn(systems)) if each[0] not in found]
     heard = on_progress or silent
-    worth = -(-plan.worth // plan.stack)
-    stacks = in_order(plan.cases, tasks, worth=worth, jobs=jobs, cluster=cluster, stage=plan.name, progress=in_systems)
-    return Study(plan, seed, samples, tuple(chain.from_iterable(stacks)), time.perf_counter() - start)
+    heard(plan.name, len(found), systems)
+    for came in _done(plan, left, samples, jobs, cluster):
+        if on_cases is not None:
+            on_cases(came)
+        found |= {each.index: each for each in came}
+        heard(plan.name, len(found), systems)
+    each = [found[index] for index in range(systems)]
+    cases, failed = tuple(one for one in each if isinstance(one, Case)), tuple(one for one in each if isinstance(one, Failed))
+    return Study(plan, seed, samples, cases, time.perf_counter() - start, failed)
+
+
+def _done(plan: Plan, numbered: list[Numbered], samples: int, jobs: int | None, cluster: str | None) -> Iterator[list[Case | Failed]]:
+    """Yield the cases of stack after stack, as they come. Of a stack whose process ended each time, each case is tried alone."""
+    tried, stack, worth = numbered, plan.stack, -(-plan.worth // plan.stack)
+    while tried:
+        stacks = [tried[first : first + stack] for first in range(0, len(tried), stack)]
+        tasks = [(plan.cases, each, samples) for each in stacks]
+        tried, stack = [], 1
+        for k, came in done_by(attempted, tasks, worth=worth, jobs=jobs, cluster=cluster):
+            if not isinstance(came, Died):
+                yield came
+            elif len(stacks[k]) == 1:
+                yield [Failed(stacks[k][0][0], came.reason)]
+            else:
+                tried += stacks[k]
+        worth = 1  # what ended another process is not to end this one
 
 
 def _in_words(group: Group) -> str:

@@ -44,6 +44,7 @@ from typing import IO
 from filelock import FileLock
 from platformdirs import user_cache_path
 
+from ...base.processes import ending_with_us
 from ...base.progress import Progress, silent
 from .sources import needs, sources
 
@@ -296,6 +297,7 @@ def _coqc(file: Path, options: tuple[str, ...], seconds: float) -> str:
                 timeout=seconds,
                 check=False,
                 stdin=subprocess.DEVNULL,
+                preexec_fn=ending_with_us(),
             )
         except subprocess.TimeoutExpired:
             raise BrokenTheory(f"{file.name}: Rocq took more than {seconds:g} s") from None

@@ -13,6 +13,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
+from ...base.processes import ending_with_us
 from ...base.progress import Progress, silent
 from .build import NotProved, compiled_theory, forget
 
@@ -44,7 +45,15 @@ def second_check(theory: Path, seconds: float = SECONDS) -> None:
     names = [f"faultspace.{one.stem}" for one in sorted(theory.glob("*.vo"))]
     command = [path, "-silent", "-o", "-Q", str(theory), "faultspace", *names]
     try:
-        run = subprocess.run(command, capture_output=True, text=True, check=False, timeout=seconds, stdin=subprocess.DEVNULL)
+        run = subprocess.run(
+            command,
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=seconds,
+            stdin=subprocess.DEVNULL,
+            preexec_fn=ending_with_us(),
+        )
     except subprocess.TimeoutExpired:
         raise NotProved(f"coqchk took more than {seconds:g} s") from None
     printed = run.stdout + run.stderr  # with -silent the summary goes to standard error

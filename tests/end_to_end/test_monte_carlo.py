@@ -69,7 +69,7 @@ def test_with_json_standard_output_holds_the_document_alone_which_the_schema_acc
     assert [study["samples"] for study in document["studies"]] == [200] * 4
     validator().validate(document)
     assert document == json.loads((tmp_path / "studies.json").read_text("utf-8"))
-    assert document["format"] == "faultspace-monte-carlo/1"
+    assert document["format"] == "faultspace-monte-carlo/2"
     for *path, last in (("format",), ("studies", 0, "cases", 0, "n_z"), ("studies", 2, "by_zeros", 1, "estimator")):
         place = document
         for key in path:

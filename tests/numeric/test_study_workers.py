@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import os
+import signal
+import socket
+import subprocess
 import sys
+from collections.abc import Sequence
 from dataclasses import asdict, replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from faultspace.base import workers as base_workers
 from faultspace.base.errors import InvalidData
+from faultspace.base.tasks import Died
+from faultspace.numeric.study.cases import Case, Numbered, one_by_one, published_case
 from faultspace.numeric.study.groups import Plan
 from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, Study, monte_carlo
-from faultspace.numeric.study.workers import in_order
+from faultspace.numeric.study.workers import done_by
 
 
 def squared(number: int) -> int:
@@ -54,6 +62,33 @@ def test_a_cluster_gives_the_same_cases_and_only_its_scheduler_counts() -> None:
     assert_same(monte_carlo(CORRECTED, systems=6, seed=4, samples=300, jobs=1), spread)
 
 
+@pytest.mark.slow
+def test_a_worker_of_a_cluster_that_is_killed_is_replaced_and_a_lost_scheduler_is_one_line(tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    tasks = [(k, tmp_path / "once") for k in range(3, 20)]
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
+        found = dict(done_by(killed, tasks, worth=1, cluster=cluster.scheduler_address))
+    assert found == {k - 3: k * k for k in range(3, 20)}
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = str(free.getsockname()[1])
+    address, line = f"tcp://127.0.0.1:{port}", [sys.executable, "-m"]
+    scheduler = subprocess.Popen([*line, "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", port, "--no-dashboard"])
+    worker = subprocess.Popen([*line, "distributed.cli.dask_worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard"])
+    try:
+        came = 0
+        with pytest.raises(InvalidData, match=f"the scheduler at {address} was lost"):
+            for _ in done_by(squared, [(k,) for k in range(10**5)], worth=1, cluster=address):
+                came += 1
+                if came == 5:
+                    scheduler.kill()
+        assert came >= 5
+    finally:
+        for process in (scheduler, worker):
+            process.kill()
+            process.wait()
+
+
 def test_without_a_scheduler_there_one_line_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("distributed")
     monkeypatch.setattr(base_workers, "PATIENCE", 1)
@@ -78,10 +113,58 @@ def test_without_distributed_the_extra_is_named(monkeypatch: pytest.MonkeyPatch)
         monte_carlo(PUBLISHED, systems=2, samples=100, cluster="tcp://127.0.0.1:8786")
 
 
-def test_results_come_in_the_order_of_the_tasks_and_are_counted() -> None:
-    heard: list[tuple[str, int, int]] = []
-    assert in_order(squared, [(k,) for k in range(5)], worth=1, jobs=1, progress=lambda *each: heard.append(each)) == [0, 1, 4, 9, 16]
-    assert heard == [("tasks", k, 5) for k in range(6)]
+def test_each_task_has_one_result_whatever_the_number_of_processes() -> None:
+    for jobs in (1, 2):
+        found = list(done_by(squared, [(k,) for k in range(9)], worth=1, jobs=jobs))
+        assert sorted(found) == [(k, k * k) for k in range(9)]
+    assert list(done_by(squared, [], worth=1, jobs=2)) == []
+
+
+def killed(number: int, once: Path) -> int:
+    """Two kills always; three kills its process once."""
+    if number == 2 or (number == 3 and not once.exists()):
+        once.touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return squared(number)
+
+
+def test_a_process_that_is_killed_is_replaced_and_its_tasks_are_done_again(tmp_path: Path) -> None:
+    found = dict(done_by(killed, [(k, tmp_path / "once") for k in range(3, 12)], worth=1, jobs=2))
+    assert found == {k - 3: k * k for k in range(3, 12)}
+
+
+@pytest.mark.slow
+def test_a_task_that_always_kills_its_process_is_given_up_and_the_others_are_done(tmp_path: Path) -> None:
+    found = dict(done_by(killed, [(k, tmp_path / "once") for k in range(12)], worth=1, jobs=2))
+    died = found.pop(2)
+    assert isinstance(died, Died) and "ended, 2 times" in died.reason
+    assert found == {k: k * k for k in range(12) if k != 2}
+
+
+def kills(numbered: Sequence[Numbered], samples: int) -> list[Case]:
+    if any(index == 2 for index, _ in numbered):
+        os.kill(os.getpid(), signal.SIGKILL)
+    return one_by_one(published_case, numbered, samples)
+
+
+@pytest.mark.slow
+def test_of_a_stack_that_kills_its_process_only_the_case_at_fault_fails() -> None:
+    plan = replace(PUBLISHED, cases=kills, stack=4, worth=1)
+    study = monte_carlo(plan, systems=6, seed=4, jobs=2, samples=30)
+    assert [each.index for each in study.failed] == [2]
+    whole = monte_carlo(PUBLISHED, systems=6, seed=4, jobs=1, samples=30).cases
+    assert study.cases == whole[:2] + whole[3:]
+
+
+def test_what_is_known_is_not_done_again() -> None:
+    came: list[int] = []
+    whole = monte_carlo(PUBLISHED, systems=8, seed=4, jobs=1, samples=300)
+    known = {case.index: case for case in whole.cases[1:7:2]} | {100: whole.cases[0]}
+    rest = monte_carlo(
+        PUBLISHED, systems=8, seed=4, jobs=1, samples=300, known=known, on_cases=lambda cases: came.extend(each.index for each in cases)
+    )
+    assert came == [0, 2, 4, 6, 7]
+    assert rest.cases == whole.cases and rest.to_json() == whole.to_json()
 
 
 def test_a_cluster_and_a_number_of_processes_are_refused_together() -> None:

@@ -25,7 +25,7 @@ from faultspace.base.threads import one_thread
 from faultspace.numeric import StateSpaceModel, count_faults, fault_dimension, pi_moesp
 from faultspace.numeric.monitor import monitoring
 from faultspace.numeric.report.files import of_monitor
-from faultspace.numeric.study.workers import in_order
+from faultspace.numeric.study.workers import done_by
 
 NUMERIC: Any = importlib.import_module("faultspace.numeric")
 # They read and hold data, and multiply no matrices.
@@ -47,13 +47,13 @@ from faultspace.numeric import arx_reduction, fault_dimension
 from faultspace.numeric.study.cases import identified_case
 from faultspace.numeric.study.runs import study_run
 from faultspace.numeric.study.systems import study_system
-from faultspace.numeric.study.workers import in_order
+from faultspace.numeric.study.workers import done_by
 
 run = study_run(study_system(2, np.random.SeedSequence(5)), 7, level=0.01, samples=300)
 answers = [fs.identify(run.y, run.u, order=5).to_json()]
 answers += [arx_reduction(y, u, order=5).to_json(), fault_dimension(y[:, :4], u=u).to_json()]
 tasks = [(index, seed, 301) for index, seed in enumerate(np.random.SeedSequence(1).spawn(2))]
-answers += [[asdict(case) for case in in_order(identified_case, tasks, worth=2, jobs=int(sys.argv[1]))]]
+answers += [[asdict(case) for _, case in sorted(done_by(identified_case, tasks, worth=2, jobs=int(sys.argv[1])), key=lambda each: each[0])]]
 print(*(hashlib.sha256(json.dumps(answer).encode()).hexdigest() for answer in answers))
 """
 
@@ -203,7 +203,7 @@ def test_a_function_keeps_its_name_and_arguments() -> None:
 
 def test_work_is_handed_out_with_one_thread() -> None:
     with two_threads():
-        assert in_order(_threads_of_a_task, [()], worth=1, jobs=1) == [[1]]
+        assert list(done_by(_threads_of_a_task, [()], worth=1, jobs=1)) == [(0, [1])]
 
 
 @one_thread()

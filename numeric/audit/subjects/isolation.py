@@ -29,7 +29,7 @@ class Isolated:
         # -P: what lies in the present folder must not stand in for a module of ours. The paths are the caller's, so that both see the same.
         paths = os.pathsep.join(path for path in sys.path if path)
         command = [sys.executable, "-P", "-m", "faultspace.numeric.audit.subjects.worker", name, str(seed)]
-        self._program = Program(command, limits, environment={**os.environ, "PYTHONPATH": paths})
+        self._program = Program(command, limits, more={"PYTHONPATH": paths})
         self._loaded = False
         try:
             self.functions: tuple[str, ...] = tuple(self._load())

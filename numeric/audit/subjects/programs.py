@@ -6,9 +6,10 @@ What the program does wrong raises Broken with the words for it: hangs, ends, ta
 processes, leaves some behind. It is killed then, and started again with the next question.
 
 Time and memory are looked at at every GLANCE, whether or not the program writes meanwhile. Behind that stands a limit of the kernel on the
-data of each process, BACKSTOP times the memory allowed, for what grows faster than anyone looks. What a program starts carries a mark in
-its environment, by which it is found wherever it went: into another session, to another parent. Processes that are there after the first
-answer belong to the program; what comes later must be gone PATIENCE after the answer.
+data of each process, BACKSTOP times the memory allowed, for what grows faster than anyone looks, and one on the processor time of the
+program, for where we are stopped ourselves. Of our environment it sees what `clean_environment` keeps. What a program starts carries a
+mark in its environment, by which it is found wherever it went: into another session, to another parent. Processes that are there after the
+first answer belong to the program; what comes later must be gone PATIENCE after the answer.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ from signal import Signals
 import psutil
 
 from ....base.errors import InvalidData, shorten
-from ....base.processes import Limits, family, kill_session, resident, session
+from ....base.processes import Limits, allow_cpu, clean_environment, family, kill_session, resident, session
 from ..records import Broken
 
 LOADING = 120.0  # seconds for an interpreter and its imports, before the first answer, whatever an answer may take
@@ -41,14 +42,15 @@ HELPER = "multiprocessing.resource_tracker"  # Python's own, which lives as long
 
 
 class Program:
-    """It runs `command`, from the first question on, in `environment` (None: the caller's). Raises InvalidData where it does not start."""
+    """It runs `command`, from the first question on, in a clean environment with these `more` variables. Raises InvalidData where it does
+    not start."""
 
-    def __init__(self, command: Sequence[str], limits: Limits, environment: Mapping[str, str] | None = None) -> None:
+    def __init__(self, command: Sequence[str], limits: Limits, more: Mapping[str, str] | None = None) -> None:
         self.command = shlex.join(command)
         self.limits = limits
         self._arguments = list(command)
         self._mark = token_hex(16)
-        self._environment = {**(os.environ if environment is None else environment), MARK: self._mark}
+        self._environment = {**clean_environment(limits.passed), **(more or {}), MARK: self._mark}
         self._strangers = set(psutil.pids())
         self._own: set[psutil.Process] | None = None
         self._process: subprocess.Popen[bytes] | None = None
@@ -110,6 +112,7 @@ class Program:
         """Writes and reads at once, so that neither side waits for the other with a full pipe."""
         process = self._process
         assert process is not None and process.stdin is not None and process.stdout is not None
+        allow_cpu(process.pid, seconds)
         deadline, glance = time.monotonic() + seconds, time.monotonic() + GLANCE
         with selectors.DefaultSelector() as selector:
             selector.register(process.stdout, selectors.EVENT_READ)

@@ -190,3 +190,27 @@ def test_bad_input_is_told_in_one_line(arguments: tuple[str, ...]) -> None:
     assert run.code == 2 and run.out == ""
     *progress, complaint = run.err.splitlines()
     assert complaint.startswith("faultspace: ") and all(line.endswith(" ...") for line in progress)
+
+
+@pytest.mark.parametrize(("passed", "faults"), [((), 1), (("SECRET_KEY",), 2), ("SECRET_KEY", 2), (("*",), 2)])
+def test_a_program_sees_of_the_environment_what_it_needs_and_what_is_passed_on(
+    passed: tuple[str, ...], faults: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SECRET_KEY", "1")
+    program = _program(tmp_path, "a = {'n_v': 2 if 'SECRET_KEY' in os.environ else 1}")
+    (record,) = audit(command=program, only=["fault-dimension[one-fault]"], environment=passed)
+    assert record.verdict == ("pass" if faults == 1 else "fail")
+
+
+def test_an_adapter_in_python_sees_no_more_of_the_environment_unless_asked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("SECRET_KEY", "1")
+    file = tmp_path / "adapter.py"
+    file.write_text("import os\ndef fault_dimension(r):\n    return 2 if 'SECRET_KEY' in os.environ else 1\n", "utf-8")
+    for more, code in ((), 0), (("--env", "SECRET_KEY"), 1):
+        assert call("audit", str(file), "--check", "fault-dimension[one-fault]", *more).code == code
+
+
+def test_names_of_variables_are_texts() -> None:
+    nonsense: Any = [3]
+    with pytest.raises(InvalidData, match="environment: got"):
+        audit(environment=nonsense)

@@ -1,0 +1,67 @@
+"""Without the extras each command that needs one says which, and the others answer. This needs pytest alone, and so runs without any."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+# What the extras bring, which looks as if it were not installed, whether it is or not.
+ABSENT = (
+    "matplotlib",
+    "pyarrow",
+    "h5py",
+    "distributed",
+    "dask",
+    "control",
+    "ctrlsys",
+    "sippy_unipi",
+    "nfoursid",
+    "cypari",
+    "jsonschema",
+    "pandas",
+)
+WITHOUT = (
+    f"import sys\nsys.modules.update(dict.fromkeys({ABSENT!r}))\nfrom faultspace.cli.command_line import main\nsys.exit(main(sys.argv[1:]))"
+)
+
+PROGRESS = re.compile(r"faultspace: .*( \.\.\.| \(\d+ of \d+.*\))")
+
+
+def without(*arguments: str) -> tuple[int, list[str]]:
+    """Return the exit code of the command without any extra, and what it said."""
+    done = subprocess.run([sys.executable, "-c", WITHOUT, *arguments], capture_output=True, text=True, timeout=400, check=False)
+    return done.returncode, [line for line in done.stderr.splitlines() if not PROGRESS.fullmatch(line)]
+
+
+@pytest.mark.parametrize("name", ["parquet", "mat73", "cluster", "peers"])
+def test_a_command_that_needs_an_extra_says_which(name: str, tmp_path: Path) -> None:
+    channels = ("--inputs", "u", "--outputs", "y", "--out", str(tmp_path / "out"))
+    parquet, mat = tmp_path / "data.parquet", tmp_path / "data.mat"
+    parquet.write_bytes(b"PAR1" + bytes(100) + b"PAR1")
+    mat.write_bytes(b"MATLAB 7.3 MAT-file".ljust(116) + bytes(8) + b"\0\2IM" + bytes(384) + b"\x89HDF\r\n\x1a\n" + bytes(100))
+    asked = {
+        "parquet": ("identify", str(parquet), *channels),
+        "mat73": ("identify", str(mat), *channels),
+        "cluster": ("monte-carlo", "--systems", "2", "--scheduler", "tcp://127.0.0.1:9", "--out", str(tmp_path / "study")),
+        "peers": ("audit", "--peer", "nfoursid"),
+    }
+    code, said = without(*asked[name])
+    assert code == 2 and len(said) == 1, said
+    assert ("needed is: pip install nfoursid" if name == "peers" else f"faultspace[{name}]") in said[0]
+
+
+def test_pictures_are_left_out_and_the_extra_is_named(tmp_path: Path) -> None:
+    code, said = without("monte-carlo", "--systems", "4", "--samples", "30", "--jobs", "1", "--out", str(tmp_path / "study"))
+    assert code == 0 and any("faultspace[plots]" in line for line in said)
+    assert not list((tmp_path / "study").glob("*.png")) and (tmp_path / "study" / "cases.csv").exists()
+
+
+@pytest.mark.parametrize(
+    "asked", [("inspect", "example:zeros"), ("compare", "example:zeros", "example:zeros"), ("examples",), ("audit", "--list"), ("--help",)]
+)
+def test_what_needs_no_extra_answers(asked: tuple[str, ...]) -> None:
+    assert without(*asked)[0] == 0
