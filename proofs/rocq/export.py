@@ -26,6 +26,7 @@ from ...exact.system.systems import read_system
 from ..trust import checker, checker_structure
 from ..trust.kernel_witnesses import kernel_witness
 from .export_fields import FIELD_KINDS, finite_zeros, infinite_zeros
+from .export_limits import LIMIT_KINDS, schur_stable
 from .listed import Integers, Listed, NotCovered, added, independent, times, unit
 from .terms import Terms, index, indices, window_of
 from .text import call, natural, naturals, pivoted, sequence, table, vector, whole
@@ -37,6 +38,7 @@ MODULES = (
     "Vocabulary", "CertificatesVocabulary", "Lists", "ListedSystems", "CheckRows", "CheckRanks", "CheckBehaviors", "Solutions",
     "CheckSolutions", "CheckInversion", "Stacks", "Excitation", "TableRank", "CheckMatrices", "NumbersVocabulary", "FieldArithmetic",
     "FieldBehaviors", "FieldSolutions", "FieldInversion", "FieldMatrices", "FieldZeros", "FieldInfiniteZeros",
+    "ExperimentsVocabulary", "Stability", "FieldLimits",
 )  # fmt: skip
 HEAD = f"""From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
@@ -57,7 +59,7 @@ def exported(certificate: Json) -> Terms:
 
 def translated(certificate: Json) -> Terms:
     """Returns the terms of a certificate whose numbers parse, verified or not. Raises checker.Malformed, checker.Rejected, NotCovered."""
-    kinds = COVERED if _over_rationals(certificate["statement"]) else FIELD_KINDS
+    kinds = COVERED if _over_rationals(certificate["statement"]) else OVER_FIELDS
     write = kinds.get(certificate["kind"])
     if write is None:
         raise NotCovered(f"the checks in Rocq do not speak of the kind {checker.shorten(certificate['kind'])}")
@@ -329,7 +331,9 @@ COVERED: dict[str, Callable[[Json, Json], Terms]] = {
     "matrix-rank": _matrix_rank,
     "finite-zeros": finite_zeros,
     "infinite-zeros": infinite_zeros,
+    **LIMIT_KINDS,
 }
+OVER_FIELDS = {**FIELD_KINDS, "schur-stable": schur_stable}
 
 
 # -- parts -------------------------------------------------------------------------------------------------------------

@@ -24,9 +24,8 @@ from faultspace.proofs.rocq.recompute import ACCEPTED, decided, proved, recomput
 from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.rocq.terms import Terms
 from faultspace.proofs.trust import checker
-from faultspace.proofs.trust import structure_certificates as make
 from tests.end_to_end.commands import call
-from tests.proofs.examples import GONE, RANKS, ROOTED, SQRT2, K, S, certificates, spoiled, stable, written
+from tests.proofs.examples import GONE, NORMAL, RANKS, ROOTED, SQRT2, K, S, certificates, spoiled, written
 from tests.proofs.test_mutations import SYSTEMS, mutated, mutations, of_one_system, of_two_systems
 from tests.thorough import THOROUGH
 
@@ -34,7 +33,7 @@ needs_rocq = pytest.mark.skipif(rocq_build.found() is None, reason=rocq_build.IN
 KEPT = resources.files("faultspace.proofs").joinpath("certificates").iterdir()
 SHIPPED = [json.loads(one.read_text("utf-8")) for one in KEPT if re.fullmatch(r".+-.+\.json", one.name)]
 EVERY = 307  # mutation is tried
-STABLE = written(make.schur_stable(next(stable(QQ))))
+ONLY_RATIONAL = "of experiments over Q alone"
 FALSE = spoiled(RANKS, ("statement.normal_rank", 2))
 
 
@@ -74,7 +73,8 @@ def test_the_kernel_proves_every_shipped_certificate_of_a_covered_kind() -> None
 def test_the_kernel_proves_small_certificates_of_every_covered_kind() -> None:
     every_one = sorted(small_ones(), key=kind_and_field)
     about = [c for _, alike in groupby(every_one, key=kind_and_field) for c in [*alike][:: 1 if THOROUGH else 9]]
-    assert {kind_and_field(c) for c in about} == {(kind, field) for kind in COVERED for field in ("Q", "GF", "Q(a)")}
+    every = {(kind, field) for kind in COVERED for field in ("Q", "GF", "Q(a)")}
+    assert {kind_and_field(c) for c in about} == every - {("schur-stable", "GF"), ("moesp-limit", "GF"), ("moesp-limit", "Q(a)")}
     assert recomputed(about) == [ACCEPTED] * len(about)
 
 
@@ -159,11 +159,12 @@ def words_of(text: str) -> set[str]:
 def test_no_string_of_a_certificate_reaches_rocq() -> None:
     sound = [text_of(certificate, exported) for certificate in small_ones()]
     words = set[str]().union(*(words_of(text or "") for text in sound))  # ours, and no others
-    assert None not in sound and MARK not in words and len(words) < 220
+    assert None not in sound and MARK not in words and len(words) < 250
     seen = Counter[str]()
     longest = sorted(small_ones(), key=lambda c: len(json.dumps(c)))
     for certificate in {json.dumps([c["kind"], sorted(c["witness"]), c["statement"].get("matrix")]): c for c in longest}.values():
-        for path in list(everywhere(certificate))[:: 1 if THOROUGH else 2]:
+        step = 15 if certificate["kind"] == "moesp-limit" else 2  # these are long, and take the checker longer
+        for path in list(everywhere(certificate))[:: 1 if THOROUGH else step]:
             for value in NO_NUMBERS:
                 candidate = mutated(certificate, path, value)
                 assert text_of(candidate, exported) is None or value is None, (path, value)
@@ -193,7 +194,8 @@ def test_a_pivot_that_carries_source_is_refused(tmp_path: Path) -> None:
 
 
 def test_other_kinds_are_not_covered() -> None:
-    for certificate in STABLE, next(c for c in SHIPPED if c["kind"] == "moesp-limit"):
+    for kind in "input-limit", "left-invertible-line":
+        certificate = next(c for c in SHIPPED if c["kind"] == kind)
         with pytest.raises(NotCovered):
             exported(certificate)
 
@@ -213,7 +215,8 @@ def test_the_format_tells_what_is_covered_and_by_which_theorem() -> None:
     assert set(rows) == set(COVERED)
     for cells in rows.values():
         over_rationals, over_fields = cells.split(" | ")
-        for theorems in over_rationals, over_fields:
+        assert (over_fields == ONLY_RATIONAL) == (re.findall(r"FieldLimits", over_rationals) != [])
+        for theorems in [over_rationals] if over_fields == ONLY_RATIONAL else [over_rationals, over_fields]:
             module, *_ = re.findall(r"`(\w+)\.", theorems)
             text = texts[f"{module}.v"]
             assert all(f"Theorem {name} " in text for name in re.findall(r"`(?:\w+\.)?(\w+)`", theorems))
@@ -227,7 +230,7 @@ def test_what_is_no_prime_is_rejected_before() -> None:
 @needs_rocq
 def test_the_command_tells_what_rocq_says(tmp_path: Path) -> None:
     files = []
-    for name, certificate in {"true": RANKS, "false": FALSE, "stable": STABLE}.items():
+    for name, certificate in {"true": RANKS, "false": FALSE, "inputs": NORMAL}.items():
         files.append(str(tmp_path / f"{name}.json"))
         Path(files[-1]).write_text(json.dumps(certificate), "utf-8")
     run = call("check", "--rocq", files[0])

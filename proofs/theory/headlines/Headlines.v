@@ -2,7 +2,7 @@
     them takes Vocabulary.v, which tells every word that they use; this file and those that it includes define none. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary.
-From faultspace Require HeadlinesMore HeadlinesLimits HeadlinesStructure HeadlinesChecks HeadlinesFields.
+From faultspace Require HeadlinesMore HeadlinesLimits HeadlinesStructure HeadlinesChecks HeadlinesFields HeadlinesExperiments.
 From faultspace Require Windows Infinite WindowBlocks Existence ConsistencyExamples OneSided Consistency.
 From faultspace Require Regression Controllable Leads OutputError Autoregressive Undetectable SmallSystems.
 From faultspace Require Theorem1 SharpWindows Theorem1Sharp Readings Lag WeakExcitation Proposition3.
@@ -349,9 +349,11 @@ Proof. move=> inv finite infinite; exact: (Readings.solution_dimension_by_zeros 
 Print Assumptions problem_11_dimension.
 
 (** The rest of the ledger is in HeadlinesMore.v, more about limits in HeadlinesLimits.v, more about structure in HeadlinesStructure.v, the
-    checks of certificates are in HeadlinesChecks.v, over other fields in HeadlinesFields.v; from here on all are in Headlines. *)
+    checks of certificates are in HeadlinesChecks.v, over other fields in HeadlinesFields.v, of limits in
+    HeadlinesExperiments.v; from here on all are in Headlines. *)
 Include HeadlinesMore.
 Include HeadlinesLimits.
 Include HeadlinesStructure.
 Include HeadlinesChecks.
 Include HeadlinesFields.
+Include HeadlinesExperiments.
