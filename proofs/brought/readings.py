@@ -12,7 +12,7 @@ certificates.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
@@ -25,7 +25,7 @@ from ..evidence import questions as ask
 from ..evidence.corpus import Evidence, Questions
 from ..language.evaluating import Bound, evaluate
 from ..language.nodes import Node, Undefined, reads
-from ..quantities.registry import Subject, quantities
+from ..quantities.registry import Quantity, Subject, quantities
 from ..trust.structure_certificates import Certificate, sha256
 from ..verdict.verdicts import Outcome, Verdict
 from ..verdict.workbench import Workbench, certify, counterexample
@@ -86,9 +86,19 @@ class Certified:
     evidence: Evidence
 
     @property
-    def n(self) -> int:
+    def horizon(self) -> int:
         """This is the number of states."""
         return self.evidence.system.n
+
+    @property
+    def own(self) -> Mapping[str, Quantity]:
+        """A claim about a system has no quantities of a whole."""
+        return {}
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The one system has no name."""
+        return ("",)
 
     def quantity(self, subject: str, name: str) -> Any:
         """Return the value of a quantity. Raises KeyError where no question tells it."""

@@ -19,6 +19,7 @@ import pytest
 
 from faultspace.base.errors import InvalidInput
 from faultspace.cli import identifying
+from faultspace.numeric import pipeline
 from tests.end_to_end.commands import Run, call
 from tests.end_to_end.damaged import arguments, damaged, sound
 from tests.thorough import THOROUGH
@@ -67,7 +68,7 @@ def wrong(run: Run) -> str:
 @pytest.mark.skipif(not hasattr(signal, "SIGALRM"), reason="a hang is ended by SIGALRM, which Windows lacks")
 @pytest.mark.parametrize("part", range(4))
 def test_damaged_files_are_told_in_a_line(part: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    whole: Any = identifying.identify
+    whole = pipeline.identify
     source = random.Random(part)
 
     def mostly_read(*given: Any, **settings: Any) -> Any:

@@ -25,8 +25,12 @@ IDENTIFY, RESIDUAL, RANKS, COUNT = Mutants("identify"), Mutants("residual"), Mut
 SPACE, SIGNAL, STRUCTURE = Mutants("fault_space"), Mutants("reconstruct"), Mutants("structure")
 
 
+_LIMIT = sys.getrecursionlimit()
+os.umask(_MASK := os.umask(0))
+
+
 def _descriptors() -> int:
-    return psutil.Process().num_fds()
+    return int(psutil.Process().num_fds())
 
 
 def _close_newest() -> None:
@@ -125,9 +129,6 @@ def raises_the_recursion_limit(r: Any, A: Any, C: Any, n_v: int, block_rows: int
     return reference.fault_space(r, A, C, n_v, block_rows)
 
 
-_LIMIT = sys.getrecursionlimit()
-
-
 @SIGNAL.broken("programs that log", leaves(lambda: len(logging.getLogger().handlers), lambda: _unlog(), TWO.r, *SYSTEM, TWO.x0))
 def configures_the_log_of_all(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any:
     """The root logger is given a handler and a level."""
@@ -161,9 +162,6 @@ def _umask() -> int:
     now = os.umask(0)
     os.umask(now)
     return now
-
-
-_MASK = _umask()
 
 
 @COUNT.broken(
