@@ -149,9 +149,9 @@ def _prctl() -> Callable[..., int] | None:
         return None
 
 
-def end_with_parent() -> None:
-    """Let this process end as soon as its parent has, even if the parent was killed: a thread looks twice a second who the parent is."""
-    parent = os.getppid()
+def end_with_parent(parent: int) -> None:
+    """Let this process end as soon as its parent, the process of that number, has, even if it was killed: a thread looks twice a second who
+    the parent is. The number is the parent's own word, for it may be gone before we look for the first time."""
 
     def watch() -> None:
         while os.getppid() == parent:

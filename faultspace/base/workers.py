@@ -10,8 +10,10 @@ version.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import os
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
+from functools import cache, partial
 from importlib import import_module
 from typing import Any
 
@@ -41,8 +43,14 @@ def unordered(count: int) -> AbstractContextManager[joblib.Parallel]:
 @contextmanager
 def _processes(**settings: Any) -> Iterator[joblib.Parallel]:
     # One BLAS thread a worker: the matrices are small and the cores are taken.
-    with joblib.parallel_config(backend="loky", inner_max_num_threads=1, initializer=end_with_parent):
+    with joblib.parallel_config(backend="loky", inner_max_num_threads=1, initializer=_ending_with(os.getpid())):
         yield joblib.Parallel(**settings)
+
+
+@cache
+def _ending_with(parent: int) -> Callable[[], None]:
+    """Return what each of our processes calls first: one object, since joblib keeps its processes as long as they are started alike."""
+    return partial(end_with_parent, parent)
 
 
 @contextmanager

@@ -19,6 +19,7 @@ from math import inf, isinf, isnan
 from typing import Any, Protocol
 
 from ...base.errors import shorten
+from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix, beside, rank, stacked
 from ...exact.algebra.stability import is_stable
 from ..quantities.cases import Case, Choice, ChoiceSubject, Known, Pair, PairSubject, Record, RecordSubject
@@ -93,6 +94,8 @@ class Exactly:
         key = subject, name, s
         if key not in self.asked:
             given, found = self.found(subject, name)
+            if found.only_over_Q and given.system.field != QQ:
+                raise Undefined(f"got {name} over {given.system.field}, expected a system over Q, of which alone it is asked")
             self.asked[key] = found.exact(given) if s is None else found.exact(given, s)
         return self.asked[key]
 

@@ -35,11 +35,14 @@ STRUCTURES = [one.structure for one in TROUBLES.values() if one.structure]
 
 
 def system_of(trouble: Trouble) -> ResidualSystem:
-    """Return the one system that all vectors of a kind are of."""
+    """Return the one system that all vectors of a kind are of; of a kind with a model alone its inputs stand for the faults."""
     if trouble.structure:
         return trouble.structure.system
-    assert trouble.faults is not None
-    return trouble.faults.system
+    if trouble.faults:
+        return trouble.faults.system
+    model = trouble.model
+    assert model is not None
+    return ResidualSystem(model.A, model.B, model.C, model.D)
 
 
 def test_drawing_again_gives_the_same_fingerprint() -> None:

@@ -1,7 +1,7 @@
 """right-on-long-records[N12000]-identify: wrong answers on records of ordinary length.
 
-How it is compared: On a record of the length given, made by signs through the system, the answer differs from
-the true one by no more than half of a unit in each quantity named.
+How it is compared: On a record of the length given, made by signs through the system, some of them late or of
+many digits, the answer differs from the true one by no more than half of a unit in each quantity named.
 
 Made by faultspace 0.1.0: faultspace audit --reproduce 'right-on-long-records[N12000]-identify' --language
 python
