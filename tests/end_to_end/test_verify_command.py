@@ -62,7 +62,14 @@ def pretended(monkeypatch: pytest.MonkeyPatch) -> Callable[[Verdict], list[dict[
     def pretend(second: Verdict) -> list[dict[str, object]]:
         calls: list[dict[str, object]] = []
 
-        def verify(claims: Sequence[str] | None, *, effort: str, jobs: int, on_progress: Callable[[str, int, int], None]) -> Report:
+        def verify(
+            claims: Sequence[str] | None,
+            *,
+            effort: str,
+            jobs: int | None,
+            on_progress: Callable[[str, int, int], None],
+            scheduler: str | None = None,
+        ) -> Report:
             calls.append({"claims": claims, "effort": effort, "jobs": jobs})
             on_progress("systems", 0, 12)
             on_progress("systems", 12, 12)

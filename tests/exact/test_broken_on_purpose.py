@@ -18,7 +18,7 @@ import ast
 import inspect
 import sys
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from importlib import import_module
 from pkgutil import walk_packages
@@ -27,6 +27,7 @@ from typing import Any
 import pytest
 
 from faultspace import exact
+from faultspace.exact.structure.behavior import separation
 from tests.exact import checks
 from tests.exact.test_unlucky_primes import SLY
 from tests.oracle.families import adversarial, paper_example, shift_register
@@ -389,10 +390,19 @@ def spoil(monkeypatch: pytest.MonkeyPatch, broken: Broken) -> None:
             monkeypatch.setattr(place, key, namespace[name])
 
 
+@pytest.fixture(autouse=True)
+def nothing_kept() -> Iterator[None]:
+    """What was found before is not kept beyond a test, and what broken code finds goes with it."""
+    separation.cache_clear()
+    yield
+    separation.cache_clear()
+
+
 def noticed(monkeypatch: pytest.MonkeyPatch, broken: Broken) -> None:
     """Assert that a check passes, and fails once a function is spoiled."""
     broken.check(*broken.arguments)
     spoil(monkeypatch, broken)
+    separation.cache_clear()
     with pytest.raises(AssertionError):
         broken.check(*broken.arguments)
 

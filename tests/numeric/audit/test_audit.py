@@ -214,7 +214,8 @@ def test_what_was_never_promised_is_counted_apart(tmp_path: Path) -> None:
 
 def test_the_quick_set_has_every_question_once_and_every_kind_of_trouble() -> None:
     whole, part = list(all_checks()), list(quick_checks(all_checks()))
-    assert {(one.slug, one.function) for one in whole} == {(one.slug, one.function) for one in part}
+    owed = [one for one in whole if one.kind != Demand.FREE]  # what is free fails nobody
+    assert {(one.slug, one.function) for one in owed} == {(one.slug, one.function) for one in part}
     assert {kind.slug for kind in KINDS} <= {one.vector for one in part} and len(part) < 0.7 * len(whole)
 
 
