@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import faultspace as fs
-from faultspace.proofs.brought import trying
+from faultspace.proofs.brought import kept
 from faultspace.proofs.brought.claims import make_claim
 from faultspace.proofs.language.by_batches import Table, UndefinedAt, true_of
 from faultspace.proofs.language.evaluating import evaluate, exactly
@@ -161,7 +161,7 @@ def test_many_at_once_say_what_each_says(about: str, field: str, entries: list[A
 )
 def test_processes_find_the_same_case(about: str, text: str, box: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
     one = fs.claim(text, about=about, box=box, ablation=False).answers[0]
-    monkeypatch.setattr(trying, "WORTH_SHARING", 10)
+    monkeypatch.setattr(kept, "WORTH_SHARING", 10)
     two = fs.claim(text, about=about, box=box, ablation=False, jobs=2).answers[0]
     assert one.counterexample is not None and two.counterexample is not None and one.counterexample.case == two.counterexample.case
 

@@ -250,23 +250,20 @@ def attack(seed: int, count: int) -> tuple[int, list[str]]:
     return followed, wrong
 
 
-def test_changed_claims_that_are_derived_are_not_refuted() -> None:
-    assert not attack(seed=5, count=3)[1]  # few follow; the slow test below tries many
-
-
 @pytest.mark.slow
 def test_many_changed_claims_that_are_derived_are_not_refuted() -> None:
     followed, wrong = attack(seed=6, count=400)
     assert not wrong and followed > 60
 
 
+@pytest.mark.slow
 def test_the_attack_notices_a_rule_that_is_wrong(monkeypatch: pytest.MonkeyPatch) -> None:
     """With a theorem that says a little too much, changed claims are derived that small systems refute."""
     wrong = tuple(
         replace(one, hypotheses=()) for one in theorems() if one.names[0] in ("theorem_2", "zero_states_direct", "problem_11_dimension")
     )
     monkeypatch.setattr("tests.proofs.test_derived_claims.theorems", lambda: wrong)
-    assert attack(seed=7, count=20)[1]
+    assert attack(seed=7, count=100)[1]
 
 
 # -- readings that verify decides from their texts ---------------------------------------------------------------------

@@ -259,7 +259,7 @@ def replay(about: list[Headline]) -> str:
     our files is a module, since what it opens with is for its own headlines."""
     lines = []
     for part in sorted({h.file for h in about}):
-        opening = re.split(r"^\(\*\* \*\*", sources()[part], maxsplit=1, flags=re.MULTILINE)[0]
+        opening = re.split(r"^(?:\(\*\* \*\*|Theorem )", sources()[part], maxsplit=1, flags=re.MULTILINE)[0]
         lines += [f"Module In{part.removesuffix('.v')}.", opening]
         for h in about:
             if h.file == part:

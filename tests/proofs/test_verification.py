@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 
 from faultspace.base.errors import InvalidInput
-from faultspace.proofs import verification
+from faultspace.proofs import deciding, verification
 from faultspace.proofs.brought.readings import decide_reading
 from faultspace.proofs.evidence.corpus import CORPUS, examine
 from faultspace.proofs.evidence.questions import RANKS
 from faultspace.proofs.trust import checker
 from faultspace.proofs.verdict import workbench
-from faultspace.proofs.verdict.ledger import Claim, Reading, load
+from faultspace.proofs.verdict.ledger import IN_LANGUAGE, Claim, Reading, load
 from faultspace.proofs.verdict.verdicts import ClaimResult, Outcome, ReadingResult, Verdict
 from faultspace.proofs.verdict.workbench import Workbench, accepted, certify
 from faultspace.proofs.verification import verify
@@ -169,7 +169,9 @@ def test_a_check_that_several_readings_share_is_run_once(monkeypatch: pytest.Mon
 
     names = {reading.check for claim in load() if claim.id in ("proposition-3", "settle-2") for reading in claim.readings}
     for name in names:
-        monkeypatch.setattr(f"faultspace.proofs.claims.{name}", found)
+        if not name.startswith(f"{IN_LANGUAGE}."):
+            monkeypatch.setattr(f"faultspace.proofs.claims.{name}", found)
+    monkeypatch.setattr(deciding, "decide_reading", lambda bench, _: found(bench))
     monkeypatch.setattr(verification, "ablations", tuple)
     report = verify(["proposition-3", "settle-2"], jobs=1)
     readings = [reading for one in report.claims for reading in one.readings]
