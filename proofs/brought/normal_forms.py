@@ -38,7 +38,7 @@ Env = Mapping[str, Sum]
 
 @dataclass(frozen=True)
 class AtMostZero:
-    """`total` <= 0."""
+    """It says that `total` is at most 0."""
 
     total: Sum
 

@@ -126,7 +126,7 @@ class ChoiceSubject(PairSubject):
 
     @property
     def matrices(self) -> dict[str, Matrix]:
-        """This is P."""
+        """This is P, the matrix that was chosen."""
         return {"P": self.P}
 
 
