@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import decimal
 import logging
 import os
@@ -41,14 +42,25 @@ def _close_logs() -> None:
         os.close(_LOGS.pop())
 
 
+def _helpers() -> list[psutil.Process]:
+    """The helpers of this file that live: other tests' workers come and go while a witness looks, and a killed process is listed for a moment."""
+    living = []
+    for one in psutil.Process().children(recursive=True):
+        with contextlib.suppress(psutil.NoSuchProcess):
+            if one.name() == "sleep" and one.status() != psutil.STATUS_ZOMBIE:
+                living += [one]
+    return living
+
+
 def _children() -> list[int]:
-    return [one.pid for one in psutil.Process().children(recursive=True) if one.status() != psutil.STATUS_ZOMBIE]
+    return [one.pid for one in _helpers()]
 
 
 def _end_children() -> None:
-    for one in psutil.Process().children(recursive=True):
-        if "sleep" in one.name():
-            one.kill()
+    ended = _helpers()
+    for one in ended:
+        one.kill()
+    psutil.wait_procs(ended)
 
 
 def _threads() -> int:
