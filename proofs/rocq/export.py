@@ -38,7 +38,7 @@ MODULES = (
     "Vocabulary", "CertificatesVocabulary", "Lists", "ListedSystems", "CheckRows", "CheckRanks", "CheckBehaviors", "Solutions",
     "CheckSolutions", "CheckInversion", "Stacks", "Excitation", "TableRank", "CheckMatrices", "NumbersVocabulary", "FieldArithmetic",
     "FieldBehaviors", "FieldSolutions", "FieldInversion", "FieldMatrices", "FieldZeros", "FieldInfiniteZeros",
-    "ExperimentsVocabulary", "Stability", "FieldLimits",
+    "ExperimentsVocabulary", "Stability", "FieldLimits", "FieldInputs",
 )  # fmt: skip
 HEAD = f"""From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.

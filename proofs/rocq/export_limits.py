@@ -19,7 +19,7 @@ from typing import Any
 from flint import fmpq, fmpq_poly
 
 from ...exact.algebra.fields import QQ
-from ...exact.algebra.matrices import Matrix, beside, rank, stacked
+from ...exact.algebra.matrices import Matrix, beside, rank, right_null_space, row_echelon, stacked
 from ...exact.algebra.stability import rational_characteristic_polynomial
 from ...exact.limits.lyapunov import stein
 from ...exact.system.modular import reduce_matrix
@@ -30,6 +30,8 @@ from .text import call, natural, sequence, vector
 
 Json = Any
 COMPLEX = "forall (C : numClosedFieldType) (embed : {rmorphism K -> C}),"
+ORDERED = "(K : fieldType)", "(K : realFieldType)"  # least squares are told by an order
+SHOWN = "seq (nat * seq V) * seq (nat * seq V)"
 INTO_COMPLEX = "(fun r => embed (value r) : [fieldType of C])"
 
 
@@ -71,12 +73,11 @@ def moesp_limit(s: Json, w: Json) -> Terms:
     tables = {"limit": stacked(upper, lower), "observability": stacked(upper, seen), "joint": stacked(upper, lower, seen)}
     evidence: list[tuple[Matrix, int, Json]] = [(about.moments(P, U, U), 0, [])]
     evidence += [(table, ranks[name], w.get(name, w["joint"])) for name, table in tables.items()]
-    shown = [about.shown(w, table, U.ncols + size, rows) for table, size, rows in evidence]
+    shown = [about.shown(w, table, U.ncols + size, about.given_nulls(rows, table.ncols)) for table, size, rows in evidence]
     n, m, p, nu, c = (natural(x) for x in (read.n, read.m, read.p, read.nu, about.channels))
     s_, past_, q_ = natural(read.s), natural(past), natural(q)
     process = "stationary_process (experiment_of value {n} {m} {p} {nu} {c} E) Q ({past} + {s}) e x states u y"
     given = process.format(n=n, m=m, p=p, nu=nu, c=c, past=past_, s=s_)
-    stable = f"stable_experiment (experiment_of {INTO_COMPLEX} {n} {m} {p} {nu} {c} E)"
     Z = f"row_mx (future 0 {past_} u) (future 0 {q_} y)"
     O_s = f"(O (system_of value {n} {m} {p} (tplant E)) {s_})"
     limit = (
@@ -84,26 +85,97 @@ def moesp_limit(s: Json, w: Json) -> Terms:
         f"\\rank L = {natural(ranks['limit'])}%N /\\ \\rank (col_mx L {O_s}) = {natural(ranks['joint'])}%N"
     )
     unit = f"cov Q (future {past_} {s_} u) (future {past_} {s_} u) \\in unitmx"
-    kind = "seq (nat * seq V) * seq (nat * seq V)"
     return Terms(
         (
-            numbers.definition,
-            ("E", f"experiment_list ({numbers.name})", about.term),
-            ("P", numbers.of("seq (seq V)"), about.table(P)),
-            ("h", "seq Z", _descending(about.annihilator())),
-            *((f"shown{i}", numbers.of(kind), one) for i, one in enumerate(shown)),
+            *about.definitions(P),
+            *((f"shown{i}", numbers.of(SHOWN), one) for i, one in enumerate(shown)),
         ),
         call(
             "is_limit", read.n, read.m, read.p, read.nu, about.channels, past, q, read.s,
             ranks["limit"], ranks["observability"], ranks["joint"], "E P h shown0 shown1 shown2 shown3",
         ),
-        f"{numbers.given} {COMPLEX} {stable} /\\ forall N (Q : 'M_N) e x states u y, {given} -> "
+        f"{numbers.given} {COMPLEX} {about.stable} /\\ forall N (Q : 'M_N) e x states u y, {given} -> "
         f"[/\\ {unit}, \\rank {O_s} = {natural(ranks['observability'])}%N & {limit}]",
         numbers.proof.format(lemma="is_limit_sound"),
     )  # fmt: skip
 
 
-LIMIT_KINDS: dict[str, Callable[[Json, Json], Terms]] = {"schur-stable": schur_stable, "moesp-limit": moesp_limit}
+def input_limit(s: Json, w: Json) -> Terms:
+    """Writes input-limit."""
+    regressions = {"moesp": regression, "true-AC": output_error}
+    checker.expect(s["regression"] in regressions, "regression: true-AC or moesp")
+    return regressions[s["regression"]](s, w)
+
+
+def regression(s: Json, w: Json) -> Terms:
+    """Writes input-limit of the regression of MOESP: the states that the response is left with come from the witness."""
+    window = checker_limits.Experiment(s["experiment"]).s
+    about = Process(s["experiment"], w, window)
+    read, numbers = about.read, about.plant.numbers
+    n, p, nu = read.n, read.p, read.nu
+    P = about.covariance(w["covariance"], False)
+    B, D = (plain(numbers.matrix(s[name], height, nu)) for name, height in (("B", n), ("D", p)))
+    response = plain(numbers.matrix(w["response"], p * window, nu * window)).transposed()
+    inverse = plain(numbers.matrix(w["inverse"], n, p * window)).transposed()
+    inputs, _ = about.signals()
+    U = stacked_columns(inputs, about.size)
+    X = (response - about.forced(B.transposed(), D.transposed())) @ inverse
+    before = about.observability().columns(range(p * (window - 1)))
+    shown = [about.shown(w, table, size, about.nulls(table)) for table, size in ((about.moments(P, U, U), nu * window), (before, n))]
+    sizes = n, read.m, p, nu, about.channels, window
+    states, noises, faults, channels, samples = (natural(x) for x in (n, p, read.m, about.channels, window))
+    process = f"stationary_process (experiment_of value {states} {faults} {noises} {natural(nu)} {channels} E) Q {samples} e x st u y"
+    Uf = f"(future 0 {samples} u)"
+    rest = f"regression_rest (system_of value {states} {faults} {noises} (tplant E)) M"
+    B0, D0 = f"(matrix_of value {natural(nu)} {states} B)", f"(matrix_of value {natural(nu)} {noises} D)"
+    least = f"squares ({rest} {B0} {D0} X) <= squares ({rest} B' D' X')"
+    alone = f"squares ({rest} B' D' X') <= squares ({rest} {B0} {D0} X) -> B' = {B0} /\\ D' = {D0}"
+    return Terms(
+        (
+            *about.definitions(P),
+            *about.tables({"B": B.transposed(), "D": D.transposed(), "R'": response, "X": X}),
+            *((f"shown{i}", numbers.of(SHOWN), one) for i, one in enumerate(shown)),
+        ),
+        call("is_regression", *sizes, "E B D P h R' X shown0 shown1"),
+        f"{numbers.given.replace(*ORDERED)} {COMPLEX} {about.stable} /\\ forall N (Q : 'M_N) e x st u y, {process} -> "
+        f"cov Q {Uf} {Uf} \\in unitmx /\\ forall M, cov Q {Uf} {Uf} *m M = cov Q {Uf} (future 0 {samples} y) -> "
+        f"exists X, forall B' D' X', {least} /\\ ({alone})",
+        numbers.proof.format(lemma="is_regression_sound").replace(*ORDERED),
+    )
+
+
+def output_error(s: Json, w: Json) -> Terms:
+    """Writes input-limit of output error: the process of the errors has its own covariance."""
+    about = Process(s["experiment"], w, 1)
+    read, numbers = about.read, about.plant.numbers
+    n, m, p, nu = read.n, read.m, read.p, read.nu
+    B, D = (plain(numbers.matrix(s[name], height, nu)) for name, height in (("B", n), ("D", p)))
+    left = about.inputs[0] - B.transposed(), about.inputs[1] - D.transposed()
+    P = Process(s["experiment"], w, 1, left).covariance(w["errors"], False)
+    series = plain(numbers.matrix(w["series"], n, about.states)).transposed()
+    E0 = f"(experiment_of value {natural(n)} {natural(m)} {natural(p)} {natural(nu)} {natural(about.channels)} E)"
+    B0, D0 = f"(matrix_of value {natural(nu)} {natural(n)} B)", f"(matrix_of value {natural(nu)} {natural(p)} D)"
+    states = f"model_states {E0} Q e x st u"
+    one, other = f"(model_error {E0} u y {D0} z 0)", f"(model_error {E0} u y D1 z1 0)"
+    return Terms(
+        (
+            *about.definitions(P),
+            *about.tables({"B": B.transposed(), "D": D.transposed(), "B'": left[0], "D'": left[1], "S": series}),
+        ),
+        call("is_output_error", n, m, p, nu, about.channels, "E B D B' D' P h S"),
+        f"{numbers.given} {COMPLEX} {about.stable} /\\ forall N (Q : 'M_N) e x st u y, stationary_process {E0} Q 1 e x st u y -> "
+        f"forall z z1 B1 D1, {states} {B0} z -> {states} B1 z1 -> cov Q (z 1%N) (z 1%N) = cov Q (z 0%N) (z 0%N) -> "
+        f"cov Q (z1 1%N) (z 1%N) = cov Q (z1 0%N) (z 0%N) -> "
+        f"\\tr (cov Q {other} {other}) = \\tr (cov Q {one} {one}) + \\tr (cov Q ({one} - {other}) ({one} - {other}))",
+        numbers.proof.format(lemma="is_output_error_sound"),
+    )
+
+
+LIMIT_KINDS: dict[str, Callable[[Json, Json], Terms]] = {
+    "schur-stable": schur_stable,
+    "moesp-limit": moesp_limit,
+    "input-limit": input_limit,
+}
 
 
 # -- parts -------------------------------------------------------------------------------------------------------------
@@ -118,6 +190,11 @@ def _descending(f: Any) -> str:
     return vector(value // content for value in reversed(values))
 
 
+def plain(matrix: Matrix) -> Matrix:
+    """Returns a matrix over Q as one, where the theory has Q for a field with a root."""
+    return Matrix(QQ, matrix.nrows, matrix.ncols, matrix.flint)
+
+
 def stacked_columns(parts: list[Matrix], height: int) -> Matrix:
     """Returns tables side by side, also where there are none."""
     return beside(Matrix.zero(QQ, height, 0), *parts)
@@ -126,25 +203,32 @@ def stacked_columns(parts: list[Matrix], height: int) -> Matrix:
 @dataclass(frozen=True, init=False)
 class Process:
     """An EXPERIMENT, and its signals by their coefficients at xi(0) = (x; s_1; ...; s_L) and e(0), e(1), ..., as the theory follows them:
-    a row each. `read`: as the checker reads it; `plant`: its system as the theory lists it; `size`: how many basic signals there are."""
+    a row each. `read`: as the checker reads it; `plant`: its system as the theory lists it; `size`: how many basic signals there are, for
+    so many `samples`; `inputs`: what drives it, B and D or, of the errors of a model, what they differ by, transposed."""
 
     read: Any
     plant: Numbered
     channels: int
     states: int
     size: int
+    samples: int
+    inputs: tuple[Matrix, ...]
 
-    def __init__(self, data: Json, w: Json) -> None:
+    def __init__(self, data: Json, w: Json, samples: int | None = None, inputs: tuple[Matrix, ...] = ()) -> None:
         read = checker_limits.Experiment(data)
         read.field.irreducible(w)
         read.field.reduce(w)
         plant = Numbered({name: value for name, value in data.items() if name not in read.OWN})
         states = read.n + (len(read.chain) - 1) * (read.nu + read.m + read.p)
         channels = read.chain[0][0].nc
-        size = states + (read.past + read.s) * channels
-        checker.charge(500 * size * (size + 10) * (read.past + read.s) * (read.n + read.nu + read.m + read.p + 1), 400 * size**2)
-        for name, value in zip(("read", "plant", "channels", "states", "size"), (read, plant, channels, states, size), strict=True):
+        samples = read.past + read.s if samples is None else samples
+        size = states + samples * channels
+        checker.charge(500 * size * (size + 10) * (samples + 1) * (read.n + read.nu + read.m + read.p + 1), 400 * size**2)
+        values = {"read": read, "plant": plant, "channels": channels, "states": states, "size": size, "samples": samples}
+        for name, value in values.items():
             object.__setattr__(self, name, value)
+        given = [self.turned(part, height, read.nu) for part, height in zip(read.inputs, (read.n, read.p), strict=True)]
+        object.__setattr__(self, "inputs", inputs or tuple(given))
 
     @property
     def height(self) -> int:
@@ -164,12 +248,11 @@ class Process:
         """Returns A, F, C, G; B, D; N_j; and d_1, d_2, ..., transposed."""
         read, h = self.read, self.height
         shapes = ((read.A, read.n, read.n), (read.F, read.n, read.m), (read.C, read.p, read.n), (read.G, read.p, read.m))
-        B, D = read.inputs
         forward = [self.turned(N, h, self.channels) for N, _ in read.chain]
         back = [-self.turned(minus, h, h) for _, minus in read.chain[1:]]
         return (
             [self.turned(*shape) for shape in shapes],
-            [self.turned(B, read.n, read.nu), self.turned(D, read.p, read.nu)],
+            [*self.inputs],
             forward,
             back,
         )
@@ -204,7 +287,7 @@ class Process:
     def signals(self) -> tuple[list[Matrix], list[Matrix]]:
         """Returns the inputs and the outputs, one sample after the other."""
         (x, states), inputs, outputs = self.start(), list[Matrix](), list[Matrix]()
-        for k in range(self.read.past + self.read.s):
+        for k in range(self.samples):
             u, y, x, states = self.step(self.basic(self.states + k * self.channels, self.channels), x, states)
             inputs.append(u)
             outputs.append(y)
@@ -242,6 +325,38 @@ class Process:
             blocks.append(A @ blocks[-1])
         return beside(*blocks)
 
+    def forced(self, B: Matrix, D: Matrix) -> Matrix:
+        """Returns T_s(B, D), both transposed."""
+        (A, _, C, _), _, _, _ = self.parts()
+        impulse = [D]
+        while len(impulse) < self.read.s:
+            impulse.append(B @ C)
+            B = B @ A
+        blank = Matrix.zero(QQ, D.nrows, D.ncols)
+        count = range(self.read.s)
+        return stacked(*(beside(*(impulse[k - j] if k >= j else blank for k in count)) for j in count))
+
+    @property
+    def stable(self) -> str:
+        """This says that the experiment is stable."""
+        sizes = " ".join(natural(x) for x in (self.read.n, self.read.m, self.read.p, self.read.nu, self.channels))
+        return f"stable_experiment (experiment_of {INTO_COMPLEX} {sizes} E)"
+
+    def definitions(self, P: Matrix) -> tuple[tuple[str, str, str], ...]:
+        """Returns what all begin with: the numbers, the experiment E, its covariance P, what vanishes at its states."""
+        numbers = self.plant.numbers
+        listed = ("E", f"experiment_list ({numbers.name})", self.term)
+        return numbers.definition, listed, *self.tables({"P": P}), ("h", "seq Z", _descending(self.annihilator()))
+
+    def tables(self, named: dict[str, Matrix]) -> list[tuple[str, str, str]]:
+        """Returns the definitions of tables."""
+        return [(name, self.plant.numbers.of("seq (seq V)"), self.table(matrix)) for name, matrix in named.items()]
+
+    def given_nulls(self, rows: Json, width: int) -> list[tuple[int, list[Any]]]:
+        """Returns the rows of a certificate that show a rank from above."""
+        given = checker.items(rows, "row", max(width, checker.MAX_DIMENSION))
+        return [(index(row["pivot"]), self.plant.numbers.integral(row["row"], width)) for row in given]
+
     def annihilator(self) -> Any:
         """Returns det(qI - A) times the least common multiple of the polynomials of the filters."""
         (A, *_), _, _, back = self.parts()
@@ -253,14 +368,18 @@ class Process:
             multiple = multiple * one / multiple.gcd(one)
         return f * multiple
 
-    def shown(self, w: Json, table: Matrix, size: int, rows: Json) -> str:
-        """Writes what shows that a table has that rank: the rows of a certificate, and combinations."""
+    def nulls(self, table: Matrix) -> list[tuple[int, list[Any]]]:
+        """Returns vectors that a table sends to zero, as many as there are, with their pivots."""
+        form = row_echelon(right_null_space(table).transposed())
+        rows = form.matrix.rows(range(len(form.pivots)))
+        return list(zip(form.pivots, Matrix(self.plant.numbers.field, rows.nrows, rows.ncols, rows.flint).elements(), strict=True))
+
+    def shown(self, w: Json, table: Matrix, size: int, above: list[tuple[int, list[Any]]]) -> str:
+        """Writes what shows that a table has that rank: vectors that it sends to zero, and combinations."""
         numbers: Numbers = self.plant.numbers
         prime = index(w["prime"], checker.MAX_PRIME)
         image = reduce_matrix(table, prime, None)
         checker.require(image is not None and rank(image) >= size, "the rank modulo the prime is smaller")
-        given = checker.items(rows, "row", max(table.ncols, checker.MAX_DIMENSION))
-        nulls = [(index(row["pivot"]), numbers.integral(row["row"], table.ncols)) for row in given]
         elements = Matrix(numbers.field, table.nrows, table.ncols, table.flint).elements()
         found = independent(numbers, elements, table.ncols)
-        return f"({numbers.pivoted(nulls)}, {numbers.pivoted(found)})"
+        return f"({numbers.pivoted(above)}, {numbers.pivoted(found)})"

@@ -7,7 +7,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterator
 from importlib import resources
-from itertools import groupby
+from itertools import groupby, product
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +25,7 @@ from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.rocq.terms import Terms
 from faultspace.proofs.trust import checker
 from tests.end_to_end.commands import call
-from tests.proofs.examples import GONE, NORMAL, RANKS, ROOTED, SQRT2, K, S, certificates, spoiled, written
+from tests.proofs.examples import GONE, RANKS, ROOTED, SQRT2, K, S, certificates, spoiled, written
 from tests.proofs.test_mutations import SYSTEMS, mutated, mutations, of_one_system, of_two_systems
 from tests.thorough import THOROUGH
 
@@ -34,6 +34,7 @@ KEPT = resources.files("faultspace.proofs").joinpath("certificates").iterdir()
 SHIPPED = [json.loads(one.read_text("utf-8")) for one in KEPT if re.fullmatch(r".+-.+\.json", one.name)]
 EVERY = 307  # mutation is tried
 ONLY_RATIONAL = "of experiments over Q alone"
+LINE = next(c for c in SHIPPED if c["kind"] == "left-invertible-line")
 FALSE = spoiled(RANKS, ("statement.normal_rank", 2))
 
 
@@ -74,16 +75,16 @@ def test_the_kernel_proves_small_certificates_of_every_covered_kind() -> None:
     every_one = sorted(small_ones(), key=kind_and_field)
     about = [c for _, alike in groupby(every_one, key=kind_and_field) for c in [*alike][:: 1 if THOROUGH else 9]]
     every = {(kind, field) for kind in COVERED for field in ("Q", "GF", "Q(a)")}
-    assert {kind_and_field(c) for c in about} == every - {("schur-stable", "GF"), ("moesp-limit", "GF"), ("moesp-limit", "Q(a)")}
+    assert {kind_and_field(c) for c in about} == every - {("schur-stable", "GF"), *product(("moesp-limit", "input-limit"), ("GF", "Q(a)"))}
     assert recomputed(about) == [ACCEPTED] * len(about)
 
 
 @needs_rocq
 def test_rocq_and_the_checker_agree_on_mutations() -> None:
     every = [(c, path, value) for c in small_ones() for path, value in mutations(c)]
-    candidates = [mutated(*one) for one in every[::EVERY]]
+    candidates = [(one[0], mutated(*one)) for one in every[::EVERY]]
     terms, verdicts, tried = list[Terms](), list[bool](), list[dict[str, Any]]()
-    for candidate in candidates:
+    for original, candidate in candidates:
         try:
             checker.verify(candidate)
             verdict = True
@@ -92,7 +93,10 @@ def test_rocq_and_the_checker_agree_on_mutations() -> None:
         except checker.Rejected:
             verdict = False
         try:
-            terms.append(translated(candidate))
+            written_out = translated(candidate)
+            if candidate["kind"] == "input-limit" and not verdict and written_out == translated(original):
+                continue  # what was changed, as what shows a solution alone, is no part of the terms
+            terms.append(written_out)
             verdicts.append(verdict)
             tried.append(candidate)
         except NotCovered:
@@ -159,11 +163,11 @@ def words_of(text: str) -> set[str]:
 def test_no_string_of_a_certificate_reaches_rocq() -> None:
     sound = [text_of(certificate, exported) for certificate in small_ones()]
     words = set[str]().union(*(words_of(text or "") for text in sound))  # ours, and no others
-    assert None not in sound and MARK not in words and len(words) < 250
+    assert None not in sound and MARK not in words and len(words) < 300
     seen = Counter[str]()
     longest = sorted(small_ones(), key=lambda c: len(json.dumps(c)))
     for certificate in {json.dumps([c["kind"], sorted(c["witness"]), c["statement"].get("matrix")]): c for c in longest}.values():
-        step = 15 if certificate["kind"] == "moesp-limit" else 2  # these are long, and take the checker longer
+        step = 60 if certificate["kind"] in ("moesp-limit", "input-limit") else 8  # these are long, and take the checker longer
         for path in list(everywhere(certificate))[:: 1 if THOROUGH else step]:
             for value in NO_NUMBERS:
                 candidate = mutated(certificate, path, value)
@@ -171,7 +175,7 @@ def test_no_string_of_a_certificate_reaches_rocq() -> None:
                 if path != ("kind",):
                     assert words_of(text_of(candidate, translated) or "") <= words, (path, value)
                 seen[certificate["kind"]] += 1
-    assert seen.keys() == COVERED.keys() and sum(seen.values()) > 5_000
+    assert seen.keys() == COVERED.keys() and sum(seen.values()) > (10_000 if THOROUGH else 1_200)
 
 
 def test_a_pivot_that_carries_source_is_refused(tmp_path: Path) -> None:
@@ -194,10 +198,8 @@ def test_a_pivot_that_carries_source_is_refused(tmp_path: Path) -> None:
 
 
 def test_other_kinds_are_not_covered() -> None:
-    for kind in "input-limit", "left-invertible-line":
-        certificate = next(c for c in SHIPPED if c["kind"] == kind)
-        with pytest.raises(NotCovered):
-            exported(certificate)
+    with pytest.raises(NotCovered):
+        exported(LINE)
 
 
 def test_a_reducible_polynomial_is_not_covered() -> None:
@@ -215,7 +217,7 @@ def test_the_format_tells_what_is_covered_and_by_which_theorem() -> None:
     assert set(rows) == set(COVERED)
     for cells in rows.values():
         over_rationals, over_fields = cells.split(" | ")
-        assert (over_fields == ONLY_RATIONAL) == (re.findall(r"FieldLimits", over_rationals) != [])
+        assert (over_fields == ONLY_RATIONAL) == (re.findall(r"FieldLimits|FieldInputs", over_rationals) != [])
         for theorems in [over_rationals] if over_fields == ONLY_RATIONAL else [over_rationals, over_fields]:
             module, *_ = re.findall(r"`(\w+)\.", theorems)
             text = texts[f"{module}.v"]
@@ -230,7 +232,7 @@ def test_what_is_no_prime_is_rejected_before() -> None:
 @needs_rocq
 def test_the_command_tells_what_rocq_says(tmp_path: Path) -> None:
     files = []
-    for name, certificate in {"true": RANKS, "false": FALSE, "inputs": NORMAL}.items():
+    for name, certificate in {"true": RANKS, "false": FALSE, "line": LINE}.items():
         files.append(str(tmp_path / f"{name}.json"))
         Path(files[-1]).write_text(json.dumps(certificate), "utf-8")
     run = call("check", "--rocq", files[0])

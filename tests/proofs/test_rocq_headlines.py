@@ -195,6 +195,11 @@ CHANGES: dict[str, tuple[str, str]] = {
     "field_infinite_zeros": ("(take j orders)", "(take j.+1 orders)"),
     "field_schur_stable": ("means value -> ", ""),
     "field_moesp_limit": ("\\rank (col_mx L seen) = rj", "\\rank (col_mx L seen) = rl"),
+    "field_input_limit_moesp": (
+        "exists X, forall B' D' X', squares (rest B0 D0 X) <=",
+        "exists X, forall B' D' X', squares (rest B0 D0 X) <",
+    ),
+    "field_input_limit_true_AC": ("cov Q (z1 1%N) (z 1%N) = cov Q (z1 0%N) (z 0%N) -> ", ""),
 }
 
 

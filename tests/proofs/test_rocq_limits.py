@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from fractions import Fraction
 from random import Random
 from typing import Any
@@ -20,7 +21,7 @@ from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.rocq.terms import Terms
 from faultspace.proofs.trust import checker
 from faultspace.proofs.trust import structure_certificates as make
-from faultspace.proofs.trust.limit_certificates import past_input_and_output_limit, past_input_limit
+from faultspace.proofs.trust.limit_certificates import moesp_inputs, output_error_inputs, past_input_and_output_limit, past_input_limit
 from tests.proofs.examples import LEADING, OUTPUTS, SQRT2, Certificate, certificates, experiment, spoiled, written
 from tests.proofs.test_mutations import mutated, mutations
 from tests.proofs.test_rocq_hints import Questions, asked
@@ -41,10 +42,12 @@ def with_term(terms: Terms, name: str, value: str) -> Terms:
 def weakened(*conditions: str) -> str:
     """Returns the checks without some of their conditions."""
     text = sources()["ExperimentsVocabulary.v"]
-    text = text[text.index("(** ** The checks: stability *)") :]
+    _, start, text = text.partition("(** ** The checks: stability *)")
+    text, others, rest = text.partition("(** R' is the response")  # the checks of B and D have some of the same conditions
     for condition in conditions:
         assert text.count(condition) == 1, condition
         text = text.replace(condition, f"(({condition}) || true)")
+    text = start + text + others + rest
     return f"From mathcomp Require Import ssrZ.\nSet Implicit Arguments. Unset Strict Implicit.\n{text}\n"
 
 
@@ -131,7 +134,10 @@ def test_rocq_and_the_checker_agree_on_mutations_of_stability_and_limits() -> No
             except checker.Malformed:
                 continue
             try:
-                questions.ask(asked(translated(candidate)), verdict, json.dumps(candidate))
+                terms = translated(candidate)
+                if not verdict and terms == translated(one[0]):  # what was changed, as what shows a solution alone, is no part of the terms
+                    continue
+                questions.ask(asked(terms), verdict, json.dumps(candidate))
                 verdicts[kind, verdict] = verdicts.get((kind, verdict), 0) + 1
             except NotCovered:
                 continue
@@ -176,3 +182,32 @@ def test_a_finite_field_has_no_unit_circle() -> None:
     forged: Certificate = spoiled(HALF, ("statement.system.field", {"prime": 3}), ("statement.system.A", [[0, 0], [0, 0]]))
     with pytest.raises(checker.Malformed):
         translated(forged)
+
+
+def input_forgeries(regression: Certificate, output_error: Certificate) -> list[tuple[str, Terms]]:
+    """Returns terms with one table that is wrong, for each of the two regressions."""
+    made = [("regression", name, translated(regression)) for name in ("B", "D", "P", "R'", "X")]
+    made += [("output error", name, translated(output_error)) for name in ("B", "D", "B'", "D'", "P", "S")]
+    found = []
+    for what, name, terms in made:
+        term = next(one for known, _, one in terms.definitions if known == name)
+        number = re.search(r"\((\(?-?\d+\)?), (\d+)\)", term)
+        wrong = "[:: [:: [:: (1, 1)]]]"  # where all entries are zero
+        if number is not None:
+            wrong = term.replace(number.group(0), f"({number.group(1)} + 1, {number.group(2)})", 1)
+        found.append((f"{what}, {name}", with_term(terms, name, wrong)))
+    return found
+
+
+@needs_rocq
+def test_inputs_by_either_regression_are_recomputed_and_no_others() -> None:
+    """Every table of the terms is looked at: with one entry more by one the check is false."""
+    questions = Questions()
+    found = limit(experiment())
+    true = [written(make_inputs(found)) for make_inputs in (moesp_inputs, output_error_inputs)]
+    for certificate in true:
+        checker.verify(certificate)
+        questions.ask(asked(translated(certificate)), True, certificate["statement"]["regression"])
+    for name, terms in input_forgeries(*true):
+        questions.ask(asked(terms), False, name)
+    assert questions.wrong() == []

@@ -188,6 +188,20 @@ Lemma told q q' T T' M M' : size T' = b -> X *m mat b q T = M -> X *m mat b q' T
 Proof.
 by move=> sT' <- <-; rewrite cov_mul cov_mul_left moments (mat_covariances meaning q q' (e := H * c) T sP sT').
 Qed.
+
+(** The inputs and outputs that tables record. *)
+Let zs := recorded_channels m nu b E p start [seq basic R b (a + k * c) c | k <- iota 0 H].
+
+Lemma recorded_signals k : (k < H)%N ->
+  X *m mat b nu (nth [::] [seq z.1 | z <- zs] k) = u k /\ X *m mat b p (nth [::] [seq z.2 | z <- zs] k) = y k.
+Proof.
+case: running => _ _ steps reads _ kH; have [-> ->] := reads k.
+have zs_size : size zs = H by rewrite recorded_size size_map size_iota.
+rewrite !(nth_map ([::], [::])) ?zs_size // -[k]add0n.
+apply: (recorded_hold meaning sizes (xs := start) (e := e) (x := x) (s := s)) (steps) _ _; rewrite ?size_map ?size_iota ?add0n //.
+  by apply: (start_holds meaning); case: (steps 0%N).
+move=> j jH; rewrite add0n (nth_map 0%N) ?size_iota // nth_iota // add0n; exact: (noise_holds meaning).
+Qed.
 End Stationary.
 End Sound.
 
@@ -227,11 +241,7 @@ set zs := recorded_channels _ _ _ _ _ _ _.
 set us := [seq z.1 | z <- zs]; set ys := [seq z.2 | z <- zs] => know.
 have es_size : size es = (past + s)%N by rewrite size_map size_iota.
 have zs_size : size zs = (past + s)%N by rewrite recorded_size.
-have zs_hold k : (k < past + s)%N -> X *m mat b nu (nth [::] us k) = u k /\ X *m mat b p (nth [::] ys k) = y k.
-  move=> kH; have [-> ->] := reads k; rewrite !(nth_map ([::], [::])) ?zs_size // -[k]add0n.
-  apply: (recorded_hold meaning sizes (xs := start) (e := e) (x := x) (s := st)) (steps) _ _; rewrite ?es_size ?add0n //.
-    by apply: (start_holds H0 sizes meaning); case: (steps 0%N).
-  move=> j jH; rewrite add0n (nth_map 0%N) ?size_iota // nth_iota // add0n; exact: (noise_holds H0 sizes meaning).
+have zs_hold := recorded_signals H0 sizes meaning running; rewrite -/zs -/us -/ys in zs_hold.
 have us_size : size us = (past + s)%N by rewrite size_map.
 have ys_size : size ys = (past + s)%N by rewrite size_map.
 have later w (ts : seq (seq (seq (numeral R)))) (r : nat -> 'M[K]_(N, w)) : size ts = (past + s)%N ->

@@ -54,6 +54,21 @@ Definition stable_experiment (C : numClosedFieldType) n m p nu c (E : experiment
   forall (z : C) (x : 'rV_n) (s : nat -> 'rV_(nu + (m + p))), follow E 0 x s (z *: x) (fun i => z *: s i) ->
   x != 0 \/ (exists2 i, (i < memory E)%N & s i != 0) -> `|z| < 1.
 
+(** The two regressions for B and D with the true A and C. That of MOESP: of R, the response to the future inputs, T_s(B, D) and states X
+    leave this rest. Output error: the states z that a model (A, B) has under the inputs, in a process that has gone on as long as that of
+    the experiment, and the error of what it predicts. *)
+Definition squares (K : fieldType) a b (M : 'M[K]_(a, b)) := \tr (M^T *m M).
+Definition regression_rest (K : fieldType) n m p nu (S : system K n m p) s (R : 'M[K]_(s * nu, s * p)) (B : 'M_(nu, n)) (D : 'M_(nu, p))
+  (X : 'M_(s * nu, n)) := R - T (with_faults S B D) s - X *m O S s.
+Section OutputError.
+Variables (K : fieldType) (n m p nu c : nat) (E : experiment K n m p nu c) (N : nat) (Q : 'M[K]_N) (e : nat -> 'M[K]_(N, c))
+  (x : nat -> 'M[K]_(N, n)) (s : nat -> nat -> 'M[K]_(N, nu + (m + p))) (u : nat -> 'M[K]_(N, nu)) (y : nat -> 'M[K]_(N, p)).
+Definition model_states (B : 'M_(nu, n)) (z : nat -> 'M[K]_(N, n)) := [/\ forall k, z k.+1 = z k *m sysA (plant E) + u k *m B,
+  cov Q (z 0%N) (e 0%N) = 0, cov Q (z 1%N) (x 1%N) = cov Q (z 0%N) (x 0%N)
+  & forall i, (i < memory E)%N -> cov Q (z 1%N) (s 1%N i) = cov Q (z 0%N) (s 0%N i)].
+Definition model_error (D : 'M_(nu, p)) (z : nat -> 'M[K]_(N, n)) k := y k - (z k *m sysC (plant E) + u k *m D).
+End OutputError.
+
 (** The tables of an experiment, and what they mean; numbers of one field in another one. *)
 Record experiment_list (R : arithmetic) := ExperimentList { tplant : listing R; tB : seq (seq (numeral R)); tD : seq (seq (numeral R));
   tforward : seq (seq (seq (numeral R))); tback : seq (seq (seq (numeral R))) }.
@@ -156,4 +171,46 @@ Definition is_limit n m p nu c past q s (rl ro rj : nat) (E : experiment_list R)
     has_rank (s * nu + (past * nu + q * p)) (s * nu + s * p) (s * nu + rl) (upper ++ lower) of_limit.1 of_limit.2,
     has_rank (s * nu + n) (s * nu + s * p) (s * nu + ro) (upper ++ seen) of_states.1 of_states.2
     & has_rank (s * nu + (past * nu + q * p + n)) (s * nu + s * p) (s * nu + rj) (upper ++ (lower ++ seen)) of_both.1 of_both.2].
+
+(** R' is the response to s inputs, B, D and X solve the normal equations of MOESP's regression: what they leave is orthogonal to O_s and to
+    T_s of every unit; the covariance of the inputs and O_(s-1) have full rank. *)
+Definition with_inputs (L : listing R) (B D : table) : listing R := Listing (tA L) B (tC L) D.
+Definition unit_table a b i j : table := mkseq (fun k => if k == i then unit_row R b j else nseq b (zero R)) a.
+Definition orthogonal_to_units n p nu s (L : listing R) (rest : table) : bool :=
+  let traceless B D := vanishes (paired rest (forced_rows nu p s (with_inputs L B D))) in
+  all (fun i => all (fun j => traceless (unit_table nu n i j) (nseq nu (nseq p (zero R)))) (iota 0 n)
+    && all (fun j => traceless (nseq nu (nseq n (zero R))) (unit_table nu p i j)) (iota 0 p)) (iota 0 nu).
+Definition is_regression n m p nu c s (E : experiment_list R) (B D P : table) (f : seq Z) (R' X : table)
+    (of_inputs of_states : shown) : bool :=
+  let h := (nu + (m + p))%N in let l := size (tback E) in let a := (n + l * h)%N in let b := (a + s * c)%N in
+  let start := (basic b 0 n, [seq basic b (n + i * h) h | i <- iota 0 l]) in
+  let next := joint_states b n h (next_states m nu b E (basic b a c) start) in
+  let zs := recorded_channels m nu b E p start [seq basic b (a + k * c) c | k <- iota 0 s] in
+  let U := windowed b nu [seq z.1 | z <- zs] in let Y := windowed b p [seq z.2 | z <- zs] in
+  let C := covariances a P (s * nu) U U in let seen := free_rows n p s (tplant E) in
+  let rest := plus_tables (s * nu) R' (minus_table
+    (plus_tables (s * nu) (forced_rows nu p s (with_inputs (tplant E) B D)) (table_product X seen))) in
+  [&& (0 < s)%N, sized_experiment n m p nu c E, formed nu n B & formed nu p D]
+  && [&& size P == a, is_stable a (take a next) f & @equal_tables R a a (covariances a P a next next) P]
+  && [&& has_rank (s * nu) (s * nu) (s * nu) C of_inputs.1 of_inputs.2,
+    has_rank n (s.-1 * p) n (free_rows n p s.-1 (tplant E)) of_states.1 of_states.2, formed (s * nu) (s * p) R'
+    & @equal_tables R (s * nu) (s * p) (table_product C R') (covariances a P (s * nu) U Y)]
+  && (@equal_tables R n (s * nu) (table_product seen (transposed (s * p) rest)) [::] && orthogonal_to_units n p nu s (tplant E) rest).
+
+(** E', with B' = tB - B and D' = tD - D, is the experiment whose outputs are the errors of the model with B and D, P its covariance; the
+    sum S of Phi^k H C' A'^k solves its equation, and what u knows of the next states vanishes on it; the error is uncorrelated with the
+    input now. *)
+Definition errors_of (E : experiment_list R) (B D : table) := ExperimentList (tplant E) B D (tforward E) (tback E).
+Definition is_output_error n m p nu c (E : experiment_list R) (B D B' D' P : table) (f : seq Z) (S : table) : bool :=
+  let E' := errors_of E B' D' in
+  let h := (nu + (m + p))%N in let l := size (tback E) in let a := (n + l * h)%N in let b := (a + 1 * c)%N in
+  let start := (basic b 0 n, [seq basic b (n + i * h) h | i <- iota 0 l]) in
+  let follow E := joint_states b n h (next_states m nu b E (basic b a c) start) in let next := follow E' in
+  let z := channels m nu b E' p (basic b a c) start in
+  [&& sized_experiment n m p nu c E, is_stable a (take a (follow E)) f, sized_experiment n m p nu c E',
+    @equal_tables R nu n (tB E) (plus_tables nu B B') & @equal_tables R nu p (tD E) (plus_tables nu D D')]
+  && [&& size P == a, is_stable a (take a next) f, @equal_tables R a a (covariances a P a next next) P & size S == a]
+  && [&& @equal_tables R a n S (plus_tables a (table_product (table_product (take a next) S) (transposed n (tA (tplant E))))
+      (table_product (take a z.2) (transposed p (tC (tplant E))))),
+    @equal_tables R nu n (table_product (covariances a P nu z.1 next) S) [::] & @equal_tables R nu p (covariances a P nu z.1 z.2) [::]].
 End LimitChecks.
