@@ -40,7 +40,7 @@ from .remainder import TEST_BANDS, as_signals, groups, remainder
 ComplexArray = NDArray[np.complex128]
 
 # Samples up to which the bands of the test of sphericity do. Of more samples the bands are narrower as well as fuller: their number grows
-# with the root.
+# with the root. Set by hand: where the bands of the test were calibrated.
 SHORT = 1000
 TINY = float(np.finfo(float).tiny)
 

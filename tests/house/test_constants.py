@@ -13,7 +13,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 MODULES = sorted((ROOT / "numeric").rglob("*.py"))
 SET_BY_HAND = {
-    "count/healthy_model.py",  # the degrees of freedom of a healthy covariance
+    "rows/faint_faults.py",  # the samples from which the bands of a spectrum become narrower
 }
 WORDS = re.compile(r"(?:set|revised|settled) (?:by hand|after looking)|rules? of thumb with", re.IGNORECASE)
 COMMAND = re.compile(r"`?(?:python )?(?:benchmarks/)?(\w+\.py)((?: (?:--)?[a-z_]+)?)`")
