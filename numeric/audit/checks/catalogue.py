@@ -18,6 +18,7 @@ from ..records import Check, Demand
 from ..vectors.trouble import SEED
 from . import (
     consistency,
+    edges,
     excitation,
     faults,
     forms,
@@ -41,6 +42,7 @@ MODULES = (
     faults,
     excitation,
     structure,
+    edges,
     refusals,
     misfits,
     silence,

@@ -2,7 +2,7 @@
 
 AXES       function -> the letter of each axis of each array that it takes, in order; equal letters must have equal sizes
 checks     refuses-misfit: one axis a row or a column longer or shorter than the others say, or a matrix turned;
-           refuses-no-number: NaN or infinity in one entry of one argument
+           refuses-no-number: NaN or infinity of either sign in one entry of one argument, in its middle, at its beginning or at its end
 
 A shape is wrong where a letter stands at another axis, too: the number of samples of a residual alone is nobody's business. Both are asked
 of two faults in three outputs, and of a single state, fault and output, where a program that repeats, cuts or adds axes finds that
@@ -68,7 +68,7 @@ def checks() -> Iterator[Check]:
             for change in _misfits(asked.function, axes, asked.arguments()[place].shape):
                 effect = "arrays that contradict each other are cut, repeated or turned until they fit"
                 yield _refuses("refuses-misfit", asked, names[place], place, change, effect)
-            for change in (Change("nan", partial(_with, np.nan)), Change("infinity", partial(_with, np.inf))):
+            for change in NO_NUMBERS:
                 yield _refuses("refuses-no-number", asked, names[place], place, change, "an answer about no numbers")
 
 
@@ -110,11 +110,26 @@ def _turned(array: Array) -> Array:
     return np.ascontiguousarray(array.T)
 
 
-def _with(value: float, array: Array) -> Array:
-    """The entry in the middle has this value."""
+def _with(value: float, where: str, array: Array) -> Array:
+    """The entry in the middle has this value, the first one, the last one, or the last one of the first row."""
+    places = {
+        "middle": tuple(size // 2 for size in array.shape),
+        "first": (0,) * array.ndim,
+        "last": (-1,) * array.ndim,
+        "corner": (0,) * (array.ndim - 1) + (-1,),
+    }
     changed = array.astype(float)
-    changed[tuple(size // 2 for size in array.shape)] = value
+    changed[places[where]] = value
     return changed
+
+
+NO_NUMBERS = (
+    Change("nan", partial(_with, np.nan, "middle")),
+    Change("infinity", partial(_with, np.inf, "middle")),
+    Change("nan-at-the-end", partial(_with, np.nan, "last")),
+    Change("infinity-in-the-corner", partial(_with, np.inf, "corner")),
+    Change("minus-infinity-at-the-beginning", partial(_with, -np.inf, "first")),
+)
 
 
 def _two_faults() -> Iterator[Asked]:

@@ -43,7 +43,7 @@ def _close_logs() -> None:
 
 
 def _helpers() -> list[psutil.Process]:
-    """The helpers of this file that live: other tests' workers come and go while a witness looks, and a killed process is listed for a moment."""
+    """The helpers of this file that live: other tests' workers come and go meanwhile, and a killed process is listed for a moment."""
     living = []
     for one in psutil.Process().children(recursive=True):
         with contextlib.suppress(psutil.NoSuchProcess):
