@@ -36,6 +36,7 @@ SAMPLES = 200
 WINDOWS = 4
 FEW = 2  # samples, fewer than states
 BELOW = -1
+TINY = float(np.finfo(float).tiny)  # of nothing nothing comes, and who divides by a bound may
 # Outputs that see states, which die out, stay, or are zero; all have a fault that does not act: A, F, C, G and the first state.
 FREE: dict[str, tuple[list[list[str]], ...]] = {
     "dying": ([["3/4", "1/4"], ["0", "-1/2"]], [["1/4"], ["1/4"]], [["1", "1"], ["2", "-1"]], [["1"], ["0"]], [["4"], ["-3"]]),
@@ -147,7 +148,7 @@ def _no_fault(name: str) -> Iterator[Check]:
 def _silent(arguments: tuple[Any, ...], function: Function) -> Iterator[Measurement]:
     """Compare with zeros, within what rounding of the free response may leave."""
     r, A, F, C, G, x0 = arguments
-    bound = fault_signal_error(r, A, F, C, G, reconstruct_fault(r, A, F, C, G, x0=x0), x0=x0) if r.any() else 0.0
+    bound = fault_signal_error(r, A, F, C, G, reconstruct_fault(r, A, F, C, G, x0=x0), x0=x0) if r.any() else TINY
     try:
         answer = lifted(function(*(one.copy() for one in arguments)), "v", (SAMPLES, 1))
     except Refused:

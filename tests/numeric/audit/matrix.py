@@ -1,13 +1,18 @@
-"""`python -m tests.numeric.audit.matrix --out FILE [--jobs N]`: every mutant through every check of its functions, as Markdown tables.
+"""`python -m tests.numeric.audit.matrix --out FILE`: every mutant with a check that catches it, as Markdown tables.
 
-matrix     (mutant, slug) -> (failed, asked)
-page       one table a function: a row a mutant, a column a slug
+caught      mutant -> how many of the checks that the tests name for it fail, of how many
+page        our mutants, those of the kinds of trouble, and those whose writers had not seen the checks
+
+A minute of computing: our mutants are asked the checks that are named for them. What catches the unseen ones stands in
+`unseen/caught_by.json`, which `python -m tests.numeric.audit.unseen.table --first --keep` writes; every one of these checks is asked by
+`unseen/test_caught.py`.
 """
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping, Sequence
+import sys
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import chdir
 from multiprocessing import get_context
@@ -17,54 +22,62 @@ from tempfile import TemporaryDirectory
 from rich.progress import track
 
 from faultspace.numeric.audit.adapter import FUNCTIONS, offered
-from faultspace.numeric.audit.checks.catalogue import all_checks
-from faultspace.numeric.audit.records import Demand
 from faultspace.numeric.audit.running import audit
-from tests.numeric.audit.mutants import MUTANTS, Mutant
+from faultspace.numeric.audit.vectors.trouble import VERSION
+from tests.numeric.audit.mutants import MUTANTS
+from tests.numeric.audit.unseen.catalogue import ALL, RIGHT
+from tests.numeric.audit.unseen.table import kept
 
-Counts = Mapping[tuple[str, str], tuple[int, int]]
-HEAD = """# Mutants against checks
+Counts = Mapping[str, Sequence[tuple[str, int, int]]]
+HEAD = f"""# Mutants and what catches them
 
-Our reference with one thing broken, put through the whole audit: how many of a check's vectors fail. Bold is the check that the tests name
-for the mutant. Columns where nothing fails are left out. Made by `python -m tests.numeric.audit.matrix --out numeric/audit/MUTANTS.md`.
+Made by `python -m tests.numeric.audit.matrix --out numeric/audit/MUTANTS.md`, with vectors of version {VERSION}.
 
-The counts are those of one machine. At the edge of rounding (`fault-space-other-units`, `fault-dimension-1e6`) a vector more or less fails
-on another, and whether square-memory is seen in `time-grows-with-N` depends on the machine's load: no test relies on it.
+## Ours
+
+Our reference with one thing broken: the checks that the tests name for it, and how many of their vectors fail. `python -m pytest
+tests/numeric/audit/test_mutants.py` asks them all. Each kind of trouble has one more, in `tests/numeric/audit/test_trouble_mutants.py`.
+The counts are those of one machine: at the edge of rounding a vector more or less fails on another.
+"""
+UNSEEN = """## Unseen
+
+Whoever wrote these had not read the vectors or the checks. Beside each stands one check that it fails, the first that was found.
+`python -m pytest -m slow tests/numeric/audit/unseen/test_caught.py` asks each that check again; a twelfth of them is asked daily.
 """
 
 
-def counted(place: int) -> dict[tuple[str, str], tuple[int, int]]:
+def caught(place: int) -> tuple[str, list[tuple[str, int, int]]]:
     """The counts are those of one mutant, which has a process of its own: some change what the next one would find."""
-    mutant = MUTANTS[place]
-    result: dict[tuple[str, str], tuple[int, int]] = {}
-    for record in audit(mutant.adapter):
-        failed, asked = result.get((mutant.name, record.slug), (0, 0))
-        if record.kind != Demand.FREE:
-            result[mutant.name, record.slug] = failed + record.failed, asked + 1
-    return result
+    one = MUTANTS[place]
+    found = []
+    for slug in (one.caught_by, *one.also):
+        records = audit(one.adapter, only=[slug])
+        found.append((slug, len(records.failed), len(records)))
+    return one.name, found
 
 
-def page(mutants: Sequence[Mutant], counts: Counts) -> str:
+def page(counts: Counts, caught_by: Mapping[str, str]) -> str:
     """The page has all tables."""
-    parts = [HEAD]
-    slugs = list(dict.fromkeys((one.function, one.slug) for one in all_checks()))
-    for function in FUNCTIONS:
-        rows = [one for one in mutants if function in offered(one.adapter)]
-        columns = [slug for of, slug in slugs if of == function and any(counts.get((one.name, slug), (0, 0))[0] for one in rows)]
-        parts.append(f"## {function}\n")
-        parts.append("| mutant | what is wrong | " + " | ".join(columns) + " |")
-        parts.append("|---" * (2 + len(columns)) + "|")
-        for one in rows:
-            cells = [_cell(counts.get((one.name, slug), (0, 0)), slug in (one.caught_by, *one.also)) for slug in columns]
-            parts.append(f"| {one.name} | {one.wrong} | " + " | ".join(cells) + " |")
-        parts.append("")
-    return "\n".join(parts).rstrip() + "\n"
+    return "\n".join([HEAD, *_ours(counts), UNSEEN, *_unseen(caught_by)]).rstrip() + "\n"
 
 
-def _cell(count: tuple[int, int], named: bool) -> str:
-    failed, asked = count
-    cell = f"{failed}/{asked}" if failed else ""
-    return f"**{cell}**" if named else cell
+def _ours(counts: Counts) -> Iterator[str]:
+    yield from ("| mutant | of | what is wrong | fails |", "|---|---|---|---|")
+    for one in MUTANTS:
+        of = [name for name in FUNCTIONS if name in offered(one.adapter)]
+        fails = ", ".join(f"`{slug}` {failed} of {asked}" for slug, failed, asked in counts[one.name])
+        yield f"| {one.name} | {of[0] if len(of) == 1 else f'{len(of)} functions'} | {one.wrong} | {fails} |"
+    yield ""
+
+
+def _unseen(caught_by: Mapping[str, str]) -> Iterator[str]:
+    yield from ("| mutant | what is wrong | fails |", "|---|---|---|")
+    for one in ALL:
+        if one.name in RIGHT:
+            fails = f"nothing, for it is right by RULES.md: {RIGHT[one.name]}"
+        else:
+            fails = f"`{caught_by[one.name]}`" if one.name in caught_by else "**nothing: it gets through**"
+        yield f"| {one.name} | {one.wrong.replace('|', '&#124;')} | {fails} |"
 
 
 def main() -> None:
@@ -74,15 +87,14 @@ def main() -> None:
     parser.add_argument("--jobs", type=int, default=1, metavar="N")
     options = parser.parse_args()
     out: Path = options.out.resolve()
-    counts: dict[tuple[str, str], tuple[int, int]] = {}
     with (
         ProcessPoolExecutor(options.jobs, get_context("spawn"), max_tasks_per_child=1) as pool,
         TemporaryDirectory() as folder,
         chdir(folder),
     ):
-        for found in track(pool.map(counted, range(len(MUTANTS))), "mutants", len(MUTANTS)):
-            counts |= found
-    out.write_text(page(MUTANTS, counts), "utf-8")
+        asked = pool.map(caught, range(len(MUTANTS)))
+        counts = dict(track(asked, "mutants", len(MUTANTS), disable=not sys.stderr.isatty()))
+    out.write_text(page(counts, kept()), "utf-8")
 
 
 if __name__ == "__main__":

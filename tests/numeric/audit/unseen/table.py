@@ -11,6 +11,7 @@ is not asked again, so that a run can be stopped and taken up. The exit code is 
 outcome     the slugs that fail, by how many checks, and one of the details; or what went wrong
 first_of    the first check that fails alone
 in_turn     the checks of a mutant's function, in the order in which they are asked for the first that fails
+still_caught    whether the check that is known to catch a mutant does so now
 kept        mutant -> full name of a check that it failed when it was asked last
 escapes     names of those that no check catches
 """
@@ -84,6 +85,23 @@ def first_of(one: Unseen, seconds: float, check_seconds: float) -> dict[str, Any
     """Return the first check that a mutant fails in a copy of this process; where there is none, or no end, what the whole audit says."""
     found = _asked(_up_to_the_first, one, seconds, check_seconds)
     return found if found.get("failed") else outcome(one, seconds, check_seconds)
+
+
+def _the_known(name: str, check_seconds: float, into: Any) -> None:
+    """Ask one mutant the check that is known to catch it: in this process, and where it passes there in one of its own."""
+    os.setpgid(0, 0)
+    subject, known = InProcess(BY_NAME[name].adapter), kept()[name]
+    results = [subject.perform(one) for one in in_turn(name)[:1]]
+    if not any(one.failed for one in results):
+        results = list(audit(f"tests.numeric.audit.unseen.catalogue:adapters.{name}", only=[known], seconds=check_seconds))
+    into.send((len(results), [_told(one) for one in results if one.failed]))
+    into.close()
+
+
+def still_caught(one: Unseen, seconds: float = 60.0, check_seconds: float = 30.0) -> bool:
+    """Say whether the check that is known to catch a mutant does so now."""
+    found = _asked(_the_known, one, seconds, check_seconds)
+    return bool(found.get("failed")) and found["first"]["name"] == kept()[one.name]
 
 
 def outcome(one: Unseen, seconds: float, check_seconds: float) -> dict[str, Any]:
