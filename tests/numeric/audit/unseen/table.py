@@ -5,8 +5,9 @@
 Each mutant is audited in processes of its own: as an adapter given by name, each check within `--check-seconds`, all of them within
 `--seconds`. With `--first` it is asked in a copy of this process, as an object is, up to the first check that it fails; one that
 fails none there, or does not come to an end, is audited whole as without. The check that is known to fail (`caught_by.json`, which
-`--keep` writes) is asked first, those of long records are asked last. FILE is written after each mutant, and what stands in it already
-is not asked again, so that a run can be stopped and taken up. The exit code is 1 where a mutant escapes that RULES.md does not call right.
+`--keep` writes) is asked first, then those that compare answers, refusals, manners, and last those of long records. FILE is written
+after each mutant, and what stands in it already is not asked again, so that a run can be stopped and taken up. The exit code is 1 where a
+mutant escapes that RULES.md does not call right.
 
 outcome     the slugs that fail, by how many checks, and one of the details; or what went wrong
 first_of    the first check that fails alone
@@ -32,9 +33,10 @@ from pathlib import Path
 from typing import Any
 
 from faultspace.numeric.audit.checks.catalogue import chosen
-from faultspace.numeric.audit.records import Check, CheckResult
+from faultspace.numeric.audit.records import Check, CheckResult, Demand
 from faultspace.numeric.audit.running import audit
 from faultspace.numeric.audit.subjects.opening import InProcess
+from faultspace.numeric.audit.upstream.recipes import MANNERS
 from tests.numeric.audit.unseen.catalogue import ALL, BY_NAME, RIGHT
 from tests.numeric.audit.unseen.form import Unseen
 
@@ -52,7 +54,12 @@ def kept() -> dict[str, str]:
 def in_turn(name: str) -> list[Check]:
     """Return the checks of the function of that mutant: the one that is known to fail, the others, those that take long."""
     known = kept().get(name)
-    return sorted(chosen({BY_NAME[name].function}), key=lambda one: (one.full_name != known, one.slug in DEAR))
+
+    def place(one: Check) -> tuple[bool, int]:
+        """What compares answers names the cause; a refusal, or manners, may be missed for another reason."""
+        return one.full_name != known, 3 if one.slug in DEAR else 2 if one.slug in MANNERS else int(one.kind is Demand.MUST_REFUSE)
+
+    return sorted(chosen({BY_NAME[name].function}), key=place)
 
 
 def _told(one: CheckResult) -> tuple[str, str, str, str]:
