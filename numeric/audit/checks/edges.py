@@ -2,8 +2,8 @@
 
 checks            window-ranks-few-windows, window-ranks-shortest-record, fault-dimension-shortest-record, fault-signal-few-samples: what is
                   due although there is hardly more than nothing; window-ranks-no-fault, fault-signal-no-fault, refuses-no-fault: where no
-                  fault acts; fault-space-wrong-number: more or fewer faults told than act; refuses-impossible-number: sizes below what any
-                  system has
+                  fault acts; fault-space-wrong-number: more or fewer faults told than act; fault-space-as-many-as-outputs: where there is
+                  no law; refuses-impossible-number: sizes below what any system has
 first, shortest   a vector's first samples with the bound of so short a record, a residual with its ranks
 free_response     a residual without a fault, its system and its first state
 """
@@ -36,6 +36,7 @@ SAMPLES = 200
 WINDOWS = 4
 FEW = 2  # samples, fewer than states
 BELOW = -1
+ROUNDED = 1e-12  # of orthonormal columns of all of a space, to its unit vectors
 TINY = float(np.finfo(float).tiny)  # of nothing nothing comes, and who divides by a bound may
 # Outputs that see states, which die out, stay, or are zero; all have a fault that does not act: A, F, C, G and the first state.
 FREE: dict[str, tuple[list[list[str]], ...]] = {
@@ -59,6 +60,7 @@ def checks() -> Iterator[Check]:
         yield from _no_fault(name)
     yield _wrong_number(vectors["two-faults"], 1)
     yield _wrong_number(vectors["one-fault"], 2)
+    yield _as_many_as_outputs(vectors["two-faults"])
     yield from _impossible(vectors["two-faults"])
 
 
@@ -176,6 +178,26 @@ def _wrong_number(vector: FaultVector, told: int) -> Check:
     effect = "fault matrices that do not explain the data: as many columns as were told"
     name = f"{vector.slug}-{told}-told"
     return Check("fault-space-wrong-number", "fault_space", name, "problem-11", effect, Severity.SILENT, measure)
+
+
+def _as_many_as_outputs(vector: FaultVector) -> Check:
+    """Where every output is faulty there is no law, and every column explains the residual: all of them, or a refusal."""
+    system, m = vector.system, vector.n_v
+    C = system.C.rows(range(m))
+    size = system.n + m
+    everything = matrix([[int(i == j) for j in range(size)] for i in range(size)], size)
+
+    def measure(function: Function) -> Iterator[Measurement]:
+        try:
+            got = function(floats(vector.r.columns(range(m))), floats(system.A), floats(C), m, system.n + 1)
+        except Refused:
+            yield Measurement("refused, as it may be", 0.0, 0.0)
+            return
+        yield from spaces_off(got, everything, ROUNDED)
+
+    effect = "true columns left out where the record excludes none"
+    name, slug = f"{vector.slug}-two-outputs", "fault-space-as-many-as-outputs"
+    return Check(slug, "fault_space", name, "problem-11", effect, Severity.SILENT, measure)
 
 
 def _impossible(vector: FaultVector) -> Iterator[Check]:

@@ -16,17 +16,16 @@ import numpy as np
 from ..records import Check, Function, Measurement, Refused, Severity
 from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import shipped
-from .edges import free_response
+from .edges import FREE, free_response
 from .faults import compared_count
 from .laws import LOUD, nothing_acts
 
 EFFECT = "a fault is reported where none acts"
-NONE = ("dying", "constant", "nothing")  # of `edges.FREE`, those with two outputs
 
 
 def checks() -> Iterator[Check]:
     """This yields all checks of the module."""
-    for name in NONE:
+    for name in FREE:
         yield _none("no-fault-told", "fault_dimension", name, partial(_free_response, name))
     for vector in shipped("noisy")[:1]:
         for name, noise in (("exact", 0.0), ("noisy", LOUD)):

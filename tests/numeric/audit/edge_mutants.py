@@ -56,6 +56,13 @@ def _as_many_as_told(r: Any, A: Any, C: Any, n_v: int, block_rows: int) -> Any:
         return np.eye(len(A) + len(C))[:, :n_v]
 
 
+def _directions_alone(r: Any, A: Any, C: Any, n_v: int, block_rows: int) -> Any:
+    """Where every output is faulty, the faults are said to act on the outputs."""
+    if n_v == r.shape[1]:
+        return np.vstack([np.zeros((len(A), n_v)), np.eye(n_v)])
+    return reference.fault_space(r, A, C, n_v, block_rows)
+
+
 def _as_many_as_states(y: Any, u: Any, order: int) -> Any:
     found = reference.count_faults(y, u, order)
     return found if found is None else min(found, order)
@@ -69,6 +76,7 @@ EDGES: tuple[Mutant, ...] = (
     mutant("free-is-faulty", "one output has full rank if it varies", "window-ranks-no-fault", window_ranks=_rank_of_what_varies),
     mutant("something-at-least", "no signal is a small one", "fault-signal-no-fault", reconstruct=_something_at_least),
     mutant("as-many-as-told", "any columns, as many as were told", "fault-space-wrong-number", fault_space=_as_many_as_told),
+    mutant("outputs-alone", "[0; I] where every output is faulty", "fault-space-as-many-as-outputs", fault_space=_directions_alone),
     mutant("as-many-as-states", "no more faults than states", "faults-of-record-sizes", count_faults=_as_many_as_states),
 )
 REFUSES = ("one-sample-more", "four-gaps", "as-long-as-states")

@@ -65,7 +65,6 @@ RIGHT = {
     "fault-dimension-says-p-where-nothing-is-known": "where all outputs are faulty, or nothing is known, a number is free",
     "identify-squeezes-a-single-state": "a matrix of one row or column may be answered as a list of its numbers",
     "structure-lists-orders-from-the-largest": "the order of a list of zeros, or of their orders, is anybody's",
-    "fault-space-answers-for-more-than-were-told": "a number of faults that is wrong may be put right, or be refused",
     "structure-goes-through-the-coefficients": "a zero is right within what rounding of the pencil may make of it",
     "fault-dimension-takes-a-sine-for-none": "a sine does not excite: no number is due",
     "identify-saves-memory-on-long-records": "of long records whole numbers are compared, and of models those are small",
