@@ -199,11 +199,7 @@ MANNERS: tuple[Mutant, ...] = (
     mutant("wanders", "another folder made the present one", "leaves-the-state", fault_dimension=_after(lambda: os.chdir("/"))),
     mutant("exports", "an environment variable set", "leaves-the-state", fault_dimension=_after(lambda: os.environ.update(LEFT="1"))),
     mutant("leaves-a-thread", "a thread left running", "leaves-the-state", fault_dimension=_after(_left_thread)),
-    *(
-        (mutant("one-core", "the process bound to one core", "leaves-the-state", fault_dimension=_after(_bound_to_a_core)),)
-        if CORES > 1
-        else ()
-    ),
+    mutant("one-core", "the process bound to one core", "leaves-the-state", fault_dimension=_after(_bound_to_a_core)),
     mutant("patches", "a function of numpy replaced for all", "leaves-the-state", fault_dimension=_after(_patched)),
     mutant("chatters", "prints", "prints-nothing", fault_dimension=_after(lambda: print("rank 4"))),
     mutant("chatters-below", "writes to the descriptor", "prints-nothing", fault_dimension=_after(lambda: os.write(1, b"rank 4\n"))),

@@ -13,6 +13,7 @@ from faultspace.numeric.audit.records import Demand
 from faultspace.numeric.audit.running import audit
 from faultspace.numeric.audit.vectors.shipped_vectors import shipped
 from tests.numeric.audit.edge_mutants import REFUSES
+from tests.numeric.audit.manner_mutants import CORES
 from tests.numeric.audit.mutants import MUTANTS, Mutant
 from tests.thorough import THOROUGH
 
@@ -22,7 +23,13 @@ def test_there_are_enough_and_they_are_told_apart() -> None:
     assert len({mutant.name for mutant in MUTANTS}) == len(MUTANTS)
 
 
-NAMED = [pytest.param(mutant, slug, id=f"{mutant.name}-{slug}") for mutant in MUTANTS for slug in (mutant.caught_by, *mutant.also)]
+NAMED = [
+    pytest.param(
+        mutant, slug, id=f"{mutant.name}-{slug}", marks=[pytest.mark.skipif(CORES < 2, reason="one core")] * (mutant.name == "one-core")
+    )
+    for mutant in MUTANTS
+    for slug in (mutant.caught_by, *mutant.also)
+]
 
 
 @pytest.mark.parametrize(("mutant", "slug"), NAMED)
