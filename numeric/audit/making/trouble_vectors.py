@@ -185,6 +185,8 @@ def _observability_index(system: ResidualSystem) -> int:
 def _faults(kind: Kind, system: ResidualSystem, known: Structure, rng: Random) -> FaultVector:
     n, m, p, lag = system.n, system.m, system.p, known.kernel.lag
     windows = lag + 2
+    if not known.left_invertible and {COUNT, SPACE, SIGNAL} & set(kind.asks):
+        raise Unsuitable("not left-invertible")  # fewer faults show than there are
     if RESIDUAL in kind.asks and not known.observable:
         raise Unsuitable("not observable")  # a free response that no output shows is determined by nothing
     samples = max(HALF, (p + 1) * (max(windows, n + 1) + 1), samples_that_settle(p, lag)) + MORE
