@@ -97,5 +97,5 @@ def audit(
         return auditing.export(subject, export)
     if reproduce is not None:
         return auditing.reproduce(subject, reproduce, language.value)
-    found = auditing.performed(subject, expected) if result is None else auditing.saved(result)
+    found = auditing.performed(subject, expected) if result is None else auditing.saved(result, subject, expected)
     return auditing.report(found, junit=junit, badge=badge, detail=-1 if quiet else verbose, as_json=json)

@@ -23,7 +23,8 @@ from ..base.processes import Limits
 from ..base.progress import working
 from ..base.writing import reason, write_text
 from ..numeric.audit.checks.catalogue import chosen
-from ..numeric.audit.expectations import expected_in
+from ..numeric.audit.expectations import as_expected, expected_in
+from ..numeric.audit.names import named
 from ..numeric.audit.outcome import Audit
 from ..numeric.audit.peers import PEERS
 from ..numeric.audit.reports.badge import endpoint, svg
@@ -75,14 +76,28 @@ def performed(asked: Asked, expected: Path | None) -> Audit:
         )
 
 
-def saved(file: Path) -> Audit:
-    """Return the audit that `faultspace audit --json` printed into a file. Raises InvalidInput."""
+def saved(file: Path, asked: Asked, expected: Path | None) -> Audit:
+    """Return the audit that `faultspace audit --json` printed into a file: of it the checks that are named, if any are, with the failures
+    that a file expects. Raises InvalidInput, also for what names another implementation or other vectors."""
+    if asked.adapter or asked.command or asked.peer or asked.seed or asked.quick:
+        raise InvalidInput(
+            "--from reports what was asked before, and asks nothing: leave the adapter, --exec, --peer, --seed and --quick out, or leave "
+            "--from out and ask again"
+        )
     try:
         written = json.loads(file.read_text("utf-8"))
     except (OSError, ValueError) as error:
         wanted = "expected what `faultspace audit --json` prints"
         raise InvalidInput(f"{quote_path(str(file))}: cannot be read as JSON ({reason(error)}), {wanted}") from None
-    return Audit.from_json(written)
+    found = Audit.from_json(written)
+    for name in asked.only:
+        if not any(named(one, name) for one in found):
+            raise InvalidInput(f"check {name}: {quote_path(str(file))} has no result of that name, expected one that -vv prints of it")
+    known = () if expected is None else expected_in(expected)
+    if known:
+        chosen((), [one.name for one in known])
+    results = [one for one in found if not asked.only or any(named(one, name) for name in asked.only)]
+    return Audit(found.adapter, tuple(as_expected(one, known) for one in results))
 
 
 def report(found: Audit, *, junit: Path | None, badge: Path | None, detail: int, as_json: bool) -> int:

@@ -54,7 +54,7 @@ FUNCTIONS = (
 @dataclass(frozen=True)
 class ZeroStructure:
     """The record holds of x(k+1) = A x + F v, r = C x + G v the normal rank of the transfer function, the finite invariant zeros, the
-    orders of the infinite zeros (ascending, one per unit of normal rank, zeros included), and whether the system is left-invertible.
+    orders of the infinite zeros (in any order, one per unit of normal rank, zeros included), and whether the system is left-invertible.
 
     The finite zeros are the roots of the invariant polynomials of the pencil [[qI - A, -F], [C, G]], with their multiplicities, also
     where the system is not left-invertible: where F = G = 0 they are the eigenvalues of A that C does not show.

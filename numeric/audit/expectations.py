@@ -62,7 +62,7 @@ def expected_in(path: Path) -> tuple[ExpectedFailure, ...]:
 def as_expected(result: CheckResult, expected: Sequence[ExpectedFailure]) -> CheckResult:
     """Return a result whose failure is expected as that, with the reason, and a pass where a failure is expected as a failure."""
     known = next((one for one in expected if named(result, one.name)), None)
-    if known is None or result.verdict in (Status.BROKEN, Status.NOT_OFFERED):
+    if known is None or result.verdict in (Status.BROKEN, Status.NOT_OFFERED, Status.EXPECTED, Status.UNEXPECTED):
         return result
     if result.verdict == Status.PASS:
         detail = f"passes, but a failure is expected ({known.reason}): take the mark away"

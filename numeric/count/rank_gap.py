@@ -203,22 +203,22 @@ def _block_rows(r: Array, block_rows: int | None, n_u: int) -> int:
     """Return the largest window asked for or affordable: R_(s+1), with u below it, needs at least as many columns as twice its rows."""
     samples, p = len(r), int(r.shape[1])
     width = 2 * (p + n_u) + 1
-    most = samples // width - 1
+    most = (samples + 1) // width - 1  # R_s has samples - s + 1 columns
     if block_rows is not None:
         wanted = positive(block_rows, "block_rows")
         if wanted > most:
             hint = "r has more channels than samples: is it transposed (it must be (N, p))? " if p > samples else ""
             raise InvalidData(
                 f"r has {counted(samples, 'sample')} of {counted(p, 'channel')}: windows of "
-                f"{wanted} + 1 samples need at least {(wanted + 1) * width}; "
+                f"{wanted} + 1 samples need at least {(wanted + 1) * width - 1}; "
                 f"{hint}try block_rows <= {max(most, 0)} or more samples"
             )
         return wanted
     if most < LEAST_RUN:
         hint = "r has more channels than samples: pass it as (N, p), r.T; otherwise " if p > samples else ""
         raise InvalidData(
-            f"r has {counted(samples, 'sample')} of {counted(p, 'channel')}: at least {(LEAST_RUN + 1) * width} samples are needed to see "
-            f"{LEAST_RUN} gaps; {hint}give more samples or fewer channels"
+            f"r has {counted(samples, 'sample')} of {counted(p, 'channel')}: at least {(LEAST_RUN + 1) * width - 1} samples are needed to "
+            f"see {LEAST_RUN} gaps; {hint}give more samples or fewer channels"
         )
     return min(DEFAULT_BLOCK_ROWS, most, max(2 * LEAST_RUN, LARGEST_HANKEL // (p + n_u) - 1))
 

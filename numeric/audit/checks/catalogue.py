@@ -18,6 +18,7 @@ from ..records import Check, Demand
 from ..vectors.trouble import SEED
 from . import (
     consistency,
+    edges,
     excitation,
     faults,
     forms,
@@ -41,6 +42,7 @@ MODULES = (
     faults,
     excitation,
     structure,
+    edges,
     refusals,
     misfits,
     silence,
@@ -78,6 +80,7 @@ def chosen(functions: Collection[str], only: Sequence[str] = (), seed: int = SEE
         if not any(named(one, name) for one in known):
             like = get_close_matches(name, [*dict.fromkeys(one.slug for one in known), *(one.name for one in known)], n=4, cutoff=0.5)
             near = f"; like it are {', '.join(like)}" if like else ""
+            near = f"; all that ask it are '*-{name.rstrip('*')}'" if name.rstrip("*") in {one.function for one in known} else near
             raise InvalidData(f"check {name}: there is none of that name, expected one that `faultspace audit --list` lists{near}")
         if functions and not patterned(name) and not any(named(one, name) for one in known if one.function in functions):
             asked = ", ".join(dict.fromkeys(one.function for one in known if named(one, name)))

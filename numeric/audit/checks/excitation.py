@@ -4,7 +4,8 @@
 
 A fault that is constant, a sine or in proportion to another shows fewer independent faults than there are: problem (11) then has solutions
 that are none of the system's. An input that is constant or one sine determines no system of order two: other B, D and initial states give
-the same outputs. Both are shown exactly in the tests.
+the same outputs. So do other columns of B and D where an input is another one times a number, or the other one a sample later. All of it is
+shown exactly in the tests.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from faultspace.exact.system.systems import ResidualSystem
 
 from ..records import Check, Demand, Function, Measurement, Severity
 from ..vectors.fault_vectors import UnexcitingVector
-from ..vectors.inputs import unexciting_inputs
+from ..vectors.inputs import alike_inputs, unexciting_inputs
 from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import IdentificationVector, shipped
 from .faults import compared_count, ranks_off
@@ -31,6 +32,9 @@ def checks() -> Iterator[Check]:
         yield _space(vector)
     model = next(one for one in shipped("identification") if (one.order, one.B.ncols) == (2, 1))
     for name, u in unexciting_inputs(model.u.nrows).items():
+        yield _model(name, model, u)
+    model = next(one for one in shipped("identification") if one.B.ncols == 2)
+    for name, u in alike_inputs(model.u.columns([0])).items():
         yield _model(name, model, u)
 
 

@@ -128,8 +128,8 @@ def many_ranks(vector: FaultVector) -> tuple[int, ...]:
 
 
 def ranks_off(answer: Any, due: tuple[int, ...]) -> Iterator[Measurement]:
-    """Yield one measurement for each window."""
-    ranks = list(answer)
+    """Yield one measurement for each window. A number is a list of one, since some languages have no other."""
+    ranks = [answer] if isinstance(answer, (int, float)) else list(answer)
     if len(ranks) != len(due):
         raise Broken(f"{counted(len(ranks), 'rank')} for {counted(len(due), 'window')}")
     for s, (got, exact) in enumerate(zip(ranks, due, strict=True), start=1):

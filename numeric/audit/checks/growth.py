@@ -29,6 +29,8 @@ import numpy as np
 import psutil
 
 from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.structure.record import analyze
+from faultspace.exact.system.systems import ResidualSystem
 
 from ....base.arrays import Array
 from ....base.processes import family, resident
@@ -54,6 +56,9 @@ KINDS = {FORGETTING: "", "whole-numbers-that-add-up": "-that-add-up"}  # and wha
 LATE = 4  # a fault that begins late has the last quarter of the record
 LOUD = 2.0**27 + 1  # whole numbers of three bits more than single precision has: rounded to it they are off by units
 STEP, LASTS = 100, 700  # the size of the steps in a residual, and the samples that each lasts
+FAINT = 2.0**16  # far above what rounding does to the singular values of so long a record
+FAINT_SYSTEM = ResidualSystem.of([[0, 1], [0, 0]], [[1, 0], [1, 1]], [[1, 0], [0, 1], [1, 1]], [[1, 0], [0, 1], [1, -1]])
+WINDOWS = 4
 NEAREST = 0.5  # from a whole number: what is nearer is no other
 
 
@@ -132,6 +137,7 @@ def checks() -> Iterator[Check]:
         yield _grows("time-grows-with-N", function, "no answer in bearable time on records of ordinary length")
         for kind, suffix in KINDS.items():
             yield _right(function, kind, suffix)
+    yield from _faint()
 
 
 def _grows(slug: str, name: str, effect: str) -> Check:
@@ -161,6 +167,27 @@ def _right(name: str, kind: str, suffix: str) -> Check:
 
     effect = "wrong answers on records of ordinary length"
     return Check("right-on-long-records", name, f"N{LENGTHS[1]}{suffix}", None, effect, Severity.SILENT, measure, nearness=1.0)
+
+
+def _faint() -> Iterator[Check]:
+    """One fault is FAINT times smaller than the other, however long the record: what grows with the length must not cover it."""
+
+    def ranks(function: Function) -> Iterator[Measurement]:
+        due = analyze(FAINT_SYSTEM).kernel
+        yield from ranks_off(function(faint(LENGTHS[1]), WINDOWS), tuple(due.rank(s) for s in range(1, WINDOWS + 1)))
+
+    def count(function: Function) -> Iterator[Measurement]:
+        yield Measurement("n_v", abs(as_number(function(faint(LENGTHS[1]))) - FAINT_SYSTEM.m), 0.0)
+
+    effect = "a faint fault is lost in records of ordinary length"
+    for name, measure in (("window_ranks", ranks), ("fault_dimension", count)):
+        yield Check("right-on-long-records", name, f"N{LENGTHS[1]}-faint", None, effect, Severity.SILENT, measure, nearness=1.0)
+
+
+def faint(length: int) -> Array:
+    """Return the residual of two faults of signs, the first of which is FAINT times as large."""
+    system = FAINT_SYSTEM
+    return _response(_driven(length, system.m) * [FAINT, 1.0], system.A, system.F, system.C, system.G)
 
 
 def stepping(shape: tuple[int, int]) -> Array:

@@ -1,9 +1,9 @@
 """Checks of what is asked of outputs and inputs together, without a residual: how many faults act, and the space of their columns.
 
-The records are two noisy vectors with LOUD times their noise, 30 dB below the faults, and the response from rest to
-an input of signs, as loud as the faults, beside them; for the count also without noise. Truth is exact: the number of faults, and
-the columns [f; g] that explain them. A space stands in the states of the model that comes with it, so that the responses of its columns are
-compared, which no basis changes.
+The records are two noisy vectors with LOUD times their noise, 30 dB below the faults, and the response from rest to an input of signs,
+as loud as the faults, beside them; for the count also without noise, and without noise in other sizes. Truth is exact: the number of
+faults, and the columns [f; g] that explain them. A space stands in the states of the model that comes with it, so that the responses of
+its columns are compared, which no basis changes.
 
 Contract. Without noise there is a number, and it is due. Under noise "undecided" is an answer, too: to refuse is no failure there, a wrong
 answer is. The space is asked with n_v given, and under noise alone: the error of a model from so many samples is in it, faults or not.
@@ -12,20 +12,24 @@ answer is. The space is asked with n_v given, and under noise alone: the error o
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import partial
+from functools import cache, partial
+from random import Random
 from typing import Any
 
 import numpy as np
 
+from faultspace.exact.algebra.matrices import beside as columns_beside
 from faultspace.exact.structure.fault_columns import fault_space
-from faultspace.exact.system.systems import System
+from faultspace.exact.structure.signals import simulate
+from faultspace.exact.system.systems import ResidualSystem, System
 
 from ....base.arrays import Array
 from ....base.errors import InvalidData
 from ...model.models import StateSpaceModel
 from ...space.distances import compare_subspaces
+from ..making.planting import digits
 from ..records import Broken, Check, Demand, Function, Measurement, Refused, Severity, Sides
-from ..vectors.rationals import floats, signs
+from ..vectors.rationals import floats, matrix, signs
 from ..vectors.recipe_vectors import NoisyVector
 from ..vectors.shipped_vectors import shipped
 from .faults import compared_count
@@ -38,6 +42,26 @@ ASKED = ("one-fault-in-noise", "two-faults-in-noise")
 SEED = 1000  # added to that of the record for the signs of the input
 SAME, UNITS, SMALL = (1.0,), (1e-3, 1.0, 1e3), (1e-12,)  # of outputs: as they are; as milli and kilo are; all small
 WINDOW = 10  # samples of a response
+OTHER_SAMPLES = 300
+# Other sizes, without noise: A, F, C, G, B, D. Two faults on one state, and two inputs.
+OTHERS: dict[str, tuple[list[list[str]], ...]] = {
+    "more-faults-than-states": (
+        [["1/2"]],
+        [["1", "-2"]],
+        [["1"], ["2"], ["-1"], ["1/2"]],
+        [["1", "0"], ["0", "1"], ["1", "1"], ["2", "-1"]],
+        [["1"]],
+        [["1"], ["0"], ["-1"], ["2"]],
+    ),
+    "two-inputs": (
+        [["1/2", "1/4"], ["0", "-1/2"]],
+        [["1"], ["-1"]],
+        [["1", "0"], ["2", "1"], ["-1", "1"], ["1/2", "2"]],
+        [["1"], ["0"], ["1"], ["2"]],
+        [["1", "2"], ["1", "-1"]],
+        [["1", "0"], ["0", "1"], ["-1", "1"], ["2", "1"]],
+    ),
+}
 
 
 def checks() -> Iterator[Check]:
@@ -62,7 +86,27 @@ def checks() -> Iterator[Check]:
             yield Check(
                 f"space-of-record{slug}", "identified_fault_space", vector.slug, "problem-11", effect, Severity.SILENT, found, nearness=1.0
             )
+    for slug in OTHERS:
+        effect = "a wrong number of faults wherever faults are more than states, or inputs more than one"
+        yield Check("faults-of-record-sizes", "count_faults", slug, "proposition-3", effect, Severity.SILENT, partial(_count_other, slug))
     yield from _refusals(shipped("noisy")[0])
+
+
+@cache
+def other_record(slug: str) -> tuple[Array, Array, System]:
+    """Return y, u and the system of a record without noise: faults and inputs are digits, the state begins at 1, -2, ...."""
+    A, F, C, G, B, D = (matrix(rows, len(rows[0])) for rows in OTHERS[slug])
+    rng = Random(f"{SEED} {slug}")
+    v, u = digits(rng, OTHER_SAMPLES, F.ncols), digits(rng, OTHER_SAMPLES, B.ncols)
+    start = matrix([[(-2) ** k] for k in range(A.nrows)], 1)
+    moved = ResidualSystem(A, columns_beside(F, B), C, columns_beside(G, D))
+    y = simulate(moved, start, columns_beside(v, u)).residuals
+    return np.ascontiguousarray(floats(y)), np.ascontiguousarray(floats(u)), System(A, F, C, G)
+
+
+def _count_other(slug: str, function: Function) -> Iterator[Measurement]:
+    y, u, system = other_record(slug)
+    yield compared_count("n_v", function(y.copy(), u.copy(), system.n), system.m)
 
 
 def record(vector: NoisyVector, noise: float, units: Sequence[float] = SAME, acting: float = 1.0) -> tuple[Array, Array]:

@@ -2,7 +2,8 @@
 
 AXES       function -> the letter of each axis of each array that it takes, in order; equal letters must have equal sizes
 checks     refuses-misfit: one axis a row or a column longer or shorter than the others say, or a matrix turned;
-           refuses-no-number: NaN or infinity in one entry of one argument
+           refuses-no-number: NaN or infinity of either sign in one entry of one argument, in its middle, at its beginning or at its end,
+           and late in a long record
 
 A shape is wrong where a letter stands at another axis, too: the number of samples of a residual alone is nobody's business. Both are asked
 of two faults in three outputs, and of a single state, fault and output, where a program that repeats, cuts or adds axes finds that
@@ -25,6 +26,7 @@ from ..signatures import ARGUMENTS
 from ..vectors.inputs import with_input
 from ..vectors.rationals import floats, signs
 from ..vectors.shipped_vectors import shipped
+from .growth import LENGTHS, question
 from .laws import LOUD, record
 
 SEED = 20250602
@@ -68,8 +70,13 @@ def checks() -> Iterator[Check]:
             for change in _misfits(asked.function, axes, asked.arguments()[place].shape):
                 effect = "arrays that contradict each other are cut, repeated or turned until they fit"
                 yield _refuses("refuses-misfit", asked, names[place], place, change, effect)
-            for change in (Change("nan", partial(_with, np.nan)), Change("infinity", partial(_with, np.inf))):
+            for change in NO_NUMBERS:
                 yield _refuses("refuses-no-number", asked, names[place], place, change, "an answer about no numbers")
+    for asked in _long():
+        for place, axes in enumerate(AXES[asked.function]):
+            if "N" in axes:
+                effect = "an answer about no numbers: they come late in the record"
+                yield _refuses("refuses-no-number", asked, ARGUMENTS[asked.function][place], place, LATE, effect)
 
 
 def _refuses(slug: str, asked: Asked, name: str, place: int, change: Change, effect: str) -> Check:
@@ -110,11 +117,27 @@ def _turned(array: Array) -> Array:
     return np.ascontiguousarray(array.T)
 
 
-def _with(value: float, array: Array) -> Array:
-    """The entry in the middle has this value."""
+def _with(value: float, where: str, array: Array) -> Array:
+    """The entry in the middle has this value, the first one, the last one, or the last one of the first row."""
+    places = {
+        "middle": tuple(size // 2 for size in array.shape),
+        "first": (0,) * array.ndim,
+        "last": (-1,) * array.ndim,
+        "corner": (0,) * (array.ndim - 1) + (-1,),
+    }
     changed = array.astype(float)
-    changed[tuple(size // 2 for size in array.shape)] = value
+    changed[places[where]] = value
     return changed
+
+
+NO_NUMBERS = (
+    Change("nan", partial(_with, np.nan, "middle")),
+    Change("infinity", partial(_with, np.inf, "middle")),
+    Change("nan-at-the-end", partial(_with, np.nan, "last")),
+    Change("infinity-in-the-corner", partial(_with, np.inf, "corner")),
+    Change("minus-infinity-at-the-beginning", partial(_with, -np.inf, "first")),
+)
+LATE = NO_NUMBERS[2]
 
 
 def _two_faults() -> Iterator[Asked]:
@@ -146,6 +169,12 @@ def _asked(slug: str, y: Array, u: Array, r: Array, system: Arguments, x0: Array
     yield Asked("fault_dimension", slug, lambda: (r.copy(),))
     yield Asked("reconstruct", slug, lambda: (r.copy(), *system, x0))
     yield Asked("structure", slug, lambda: system)
+
+
+def _long() -> Iterator[Asked]:
+    """Records of thousands of samples, which nobody reads twice."""
+    for function in ("identify", "residual", "window_ranks", "fault_dimension", "fault_space", "reconstruct"):
+        yield Asked(function, f"N{LENGTHS[0]}", partial(question, function, LENGTHS[0]))
 
 
 def _of_records() -> Iterator[Asked]:

@@ -13,24 +13,14 @@ from typing import Any
 
 import numpy as np
 
-from faultspace.exact.algebra.matrices import Matrix
-from faultspace.exact.structure.signals import simulate
-from faultspace.exact.system.systems import ResidualSystem
-
 from ..records import Check, Function, Measurement, Refused, Severity
-from ..vectors.rationals import floats, matrix
+from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import shipped
+from .edges import FREE, free_response
 from .faults import compared_count
 from .laws import LOUD, nothing_acts
 
-SAMPLES = 200
 EFFECT = "a fault is reported where none acts"
-# Two outputs that see two states, which die out, stay, or are zero.
-FREE: dict[str, tuple[list[list[str]], list[int]]] = {
-    "dying": ([["3/4", "1/4"], ["0", "-1/2"]], [4, -3]),
-    "constant": ([["1", "0"], ["0", "1"]], [2, -3]),
-    "nothing": ([["1/2", "0"], ["0", "1/4"]], [0, 0]),
-}
 
 
 def checks() -> Iterator[Check]:
@@ -42,15 +32,8 @@ def checks() -> Iterator[Check]:
             yield _none("no-fault-of-record", "count_faults", f"{vector.slug}-{name}", partial(nothing_acts, vector, noise))
 
 
-def free_response(name: str) -> Matrix:
-    """Return the exact residual (SAMPLES, 2)."""
-    A, start = FREE[name]
-    system = ResidualSystem.of(A, [[0], [0]], [["1", "1"], ["2", "-1"]], [[0], [0]])
-    return simulate(system, matrix([[x] for x in start], 1), matrix([[0]] * SAMPLES, 1)).residuals
-
-
 def _free_response(name: str) -> tuple[Any, ...]:
-    return (np.ascontiguousarray(floats(free_response(name))),)
+    return (np.ascontiguousarray(floats(free_response(name)[0])),)
 
 
 def _none(slug: str, function: str, vector: str, arguments: Callable[[], tuple[Any, ...]]) -> Check:

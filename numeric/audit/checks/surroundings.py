@@ -9,17 +9,21 @@ Each function is called once before anything is looked at: what the first call l
 
 from __future__ import annotations
 
+import builtins
 import decimal
 import gc
 import io
 import locale
 import logging
+import math
+import multiprocessing
 import os
 import random
 import signal
 import sys
 import tempfile
 import threading
+import time
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stdout
@@ -29,6 +33,7 @@ from typing import Any
 
 import numpy as np
 import psutil
+import scipy.linalg
 
 from ..records import Check, Function, Measurement, Refused, Severity
 from .manners import copies, equal, questions
@@ -39,6 +44,14 @@ except ImportError:  # no such limits on this platform
     resource = None  # type: ignore[assignment]
 
 Arguments = tuple[Any, ...]
+LIBRARIES = (np, np.linalg, np.random, scipy.linalg, random, builtins, math, os, time)
+FUNCTIONS_OF_OTHERS = {
+    f"{library.__name__}.{name}": library
+    for library in LIBRARIES
+    for name, one in vars(library).items()
+    if callable(one) and name[0] != "_"
+}
+"""Functions that a program may replace for everybody, by full name, with the module that has them."""
 TIMERS = tuple(getattr(signal, name) for name in ("ITIMER_REAL", "ITIMER_VIRTUAL", "ITIMER_PROF") if hasattr(signal, name))
 
 
@@ -84,6 +97,9 @@ def state() -> dict[str, Any]:
         "the log of all": (tuple(logging.root.handlers), logging.root.level, logging.root.manager.disable),
         "the mask of new files": _mask(),
         "limits of the process": _limits(),
+        "functions of libraries": _functions(),
+        "numpy's buffer": np.getbufsize(),
+        "how processes are started": multiprocessing.get_start_method(allow_none=True),
         "open files": psutil.Process().num_fds() if hasattr(psutil.Process, "num_fds") else 0,
         "threads of Python": threading.active_count(),
         "threads of the linear algebra": [(one["filepath"], one["num_threads"]) for one in threadpool_info()],
@@ -97,6 +113,14 @@ def hooks() -> tuple[Any, ...]:
     return (*of_sys, threading.excepthook, warnings.showwarning, tuple(sys.meta_path), tuple(sys.path_hooks), tuple(gc.callbacks))
 
 
+def _functions() -> dict[str, Any]:
+    return {name: vars(owner).get(name.rpartition(".")[2]) for name, owner in FUNCTIONS_OF_OTHERS.items()}
+
+
+def _processors() -> Any:
+    return os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else None
+
+
 def _mask() -> int:
     mask = os.umask(0o077)
     os.umask(mask)
@@ -108,7 +132,7 @@ def _limits() -> tuple[Any, ...]:
     if resource is None:
         return ()
     limits = tuple(resource.getrlimit(getattr(resource, name)) for name in dir(resource) if name.startswith("RLIMIT_"))
-    return limits, os.nice(0), os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else None
+    return limits, os.nice(0), _processors()
 
 
 def _leaves_the_state(arguments: Arguments, function: Function) -> Iterator[Measurement]:
@@ -134,6 +158,7 @@ def _as_it_was() -> Iterator[None]:
     limit, collects, mask = sys.getrecursionlimit(), gc.isenabled(), _mask()
     handlers, level, speech = list(logging.root.handlers), logging.root.level, locale.setlocale(locale.LC_ALL)
     called = {name: getattr(sys, name) for name in ("excepthook", "unraisablehook", "displayhook", "breakpointhook")}
+    processors, functions, starting = _processors(), _functions(), multiprocessing.get_start_method(allow_none=True)
     signals = {one: signal.getsignal(one) for one in signal.valid_signals()}
     with warnings.catch_warnings(), np.errstate(), decimal.localcontext():
         try:
@@ -154,6 +179,13 @@ def _as_it_was() -> Iterator[None]:
             locale.setlocale(locale.LC_ALL, speech)
             for name, hook in called.items():
                 setattr(sys, name, hook)
+            for name, one in functions.items():
+                if vars(FUNCTIONS_OF_OTHERS[name]).get(name.rpartition(".")[2]) is not one:
+                    setattr(FUNCTIONS_OF_OTHERS[name], name.rpartition(".")[2], one)
+            if processors is not None and _processors() != processors:
+                os.sched_setaffinity(0, processors)
+            if multiprocessing.get_start_method(allow_none=True) != starting:
+                multiprocessing.set_start_method(starting, force=True)
             logging.root.handlers[:] = handlers
             logging.root.setLevel(level)
             if threading.current_thread() is threading.main_thread():

@@ -365,6 +365,7 @@ KINDS = (
     Kind("small-D", "a column of D of a thousandth", _direct(Fraction(1, 2**10))),
     Kind("large-D", "a column of D of a thousand", _direct(Fraction(2**10))),
     Kind("no-fault", "nothing but the free response: no fault at all", _plain(3, 0, 3), (RANKS,)),
+    Kind("no-fault-in-one-output", "the free response in a single output, whose windows have no full rank", _plain(2, 0, 1), (RANKS,)),
     Kind("pure-noise", "signs in every output: as many faults as outputs, or noise", _pure_noise, (RANKS,)),
     Kind("order-0", "no state", _plain(0, 2, 3), FAULTS),
     Kind("delays", "faults that show two and four samples late", _delays(2, 4)),

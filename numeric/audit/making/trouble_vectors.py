@@ -23,6 +23,7 @@ from faultspace.exact.structure.signals import excitation_matrix, hankel, simula
 from faultspace.exact.system.systems import ResidualSystem
 
 from ....base.arrays import Array
+from ....base.threads import one_thread
 from ...model.compression import EPS
 from ...rounding.conditioning import SMALL
 from ..vectors.exact_comparison import roots
@@ -47,6 +48,7 @@ class Unsuitable(ArithmeticError):
     """The draw does not meet the conditions of the question."""
 
 
+@one_thread()
 def made(kind: Kind, seed: int) -> Trouble:
     """Return the vectors of the kind with their bounds. Raises ArithmeticError where no draw of ATTEMPTS meets the conditions."""
     found = unbounded(kind, seed)
@@ -183,6 +185,10 @@ def _observability_index(system: ResidualSystem) -> int:
 def _faults(kind: Kind, system: ResidualSystem, known: Structure, rng: Random) -> FaultVector:
     n, m, p, lag = system.n, system.m, system.p, known.kernel.lag
     windows = lag + 2
+    if not known.left_invertible and {COUNT, SPACE, SIGNAL} & set(kind.asks):
+        raise Unsuitable("not left-invertible")  # fewer faults show than there are
+    if RESIDUAL in kind.asks and not known.observable:
+        raise Unsuitable("not observable")  # a free response that no output shows is determined by nothing
     samples = max(HALF, (p + 1) * (max(windows, n + 1) + 1), samples_that_settle(p, lag)) + MORE
     x0, v = digits(rng, n, 1), kind.moves(rng, samples, m)
     trajectory = simulate(system, x0, v)

@@ -1,7 +1,7 @@
 """This sets implementation against check: the audit of our reference and of every published package that is here, written as one JSON file.
 
     tallies       the results of one audit, summed up by slug and function
-    board         our reference and these packages
+    audits        the entries of our reference and of these packages
     merged        new entries in place of old ones
     main          audits and writes scoreboard.json; what is not installed here keeps the entry that it has there
 
@@ -13,7 +13,7 @@ from __future__ import annotations
 import argparse
 import json
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from math import inf
 from pathlib import Path
 from typing import Any
@@ -39,17 +39,20 @@ def tallies(results: Iterable[CheckResult]) -> tuple[Tally, ...]:
     return tuple(found)
 
 
-def board(names: Sequence[str], seconds: float, on_progress: Progress) -> Board:
-    """Return the board of our reference and of those of these packages that are here; a check may take so many seconds."""
+def audits(names: Sequence[str], seconds: float, on_progress: Progress, *, ours: bool = True) -> Iterator[Audited]:
+    """Yield the entry of our reference, and of those of these packages that are here, as it is known; a check may take so many seconds."""
 
     def audited(name: str, title: str, version: str, needs: str, peer: str | None) -> Audited:
         begun = time.perf_counter()
         found = audit(peer=peer, seconds=seconds, on_progress=lambda check, done, total: on_progress(name, done, total))
         return Audited(name, title, version, needs, round(time.perf_counter() - begun, 1), tallies(found))
 
-    known = [(one, one.version()) for one in map(peer_named, names)]
-    ours = audited("faultspace", "our own reference", "this one", "", None)
-    return Board((ours, *(audited(one.name, one.title, version, one.needs, one.name) for one, version in known if version is not None)))
+    if ours:
+        yield audited("faultspace", "our own reference", "this one", "", None)
+    for one in map(peer_named, names):
+        version = one.version()
+        if version is not None:
+            yield audited(one.name, one.title, version, one.needs, one.name)
 
 
 def merged(new: Board, old: Board) -> Board:
@@ -65,18 +68,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where scoreboard.json, README.md and FINDINGS.md are")
     parser.add_argument("--peer", action="append", metavar="NAME", help="only this package, beside our own; may be repeated")
     parser.add_argument("--own", action="store_true", help="our own reference alone, no package")
+    parser.add_argument("--others", action="store_true", help="packages alone, and not our own reference")
     parser.add_argument("--timeout", type=float, default=60.0, metavar="SECONDS", help="of one check")
     parser.add_argument("--pages", action="store_true", help="audit nothing: make the pages from scoreboard.json again")
     given = parser.parse_args(arguments)
-    if given.own and given.peer:
-        parser.error("--own audits no package, and --peer names one")
+    if given.own and (given.peer or given.others):
+        parser.error("--own audits no package, and --peer and --others do")
     file: Path = given.out / "scoreboard.json"
     found = Board.from_json(json.loads(file.read_text("utf-8"))) if file.exists() else Board(())
     if not given.pages:
         names = [] if given.own else given.peer or [one.name for one in PEERS]
-        with working("the audit of our own code") as tell:
-            found = merged(board(names, given.timeout, evenly(tell)), found)
         given.out.mkdir(parents=True, exist_ok=True)
-        file.write_text(json.dumps(found.to_json(), indent=1) + "\n", "utf-8")
+        with working("the audit of our own code") as tell:
+            for one in audits(names, given.timeout, evenly(tell), ours=not given.others):
+                found = merged(Board((one,)), found)
+                file.write_text(json.dumps(found.to_json(), indent=1) + "\n", "utf-8")  # what is known is kept, whatever comes then
     write_pages(found, given.out)
     return 0

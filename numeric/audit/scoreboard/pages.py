@@ -37,6 +37,7 @@ def table(board: Board) -> str:
     totals = [f"{_passed(audited)}/{sum(one.asked for one in _musts(audited))}" for audited in board.audited]
     lines.append("| **passed of all musts** | | " + " | ".join(totals) + " |")
     lines.append("| version | | " + " | ".join(audited.version for audited in board.audited) + " |")
+    lines.append("| vectors of version | | " + " | ".join(str(audited.vectors) for audited in board.audited) + " |")
     lines.append("| seconds | | " + " | ".join(f"{audited.seconds:.0f}" for audited in board.audited) + " |")
     return "\n".join(lines)
 
@@ -65,7 +66,9 @@ def findings(board: Board, scripts: Mapping[tuple[str, str], str]) -> str:
         failed = [one for one in audited.tallies if one.failed]
         if not failed:
             continue
-        parts.append(f"## {audited.name}\n\n{audited.title}; {audited.version}. To have it: {audited.needs}.\n")
+        parts.append(
+            f"## {audited.name}\n\n{audited.title}; {audited.version}; vectors of version {audited.vectors}. To have it: {audited.needs}.\n"
+        )
         for first, *others in _alike(failed):
             count = f"{first.failed} of {first.asked}"
             parts.append(f"- **{first.slug}** of `{first.function}`: {count}. {_words(first)} Effect: {first.effect}.")

@@ -11,6 +11,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from ....base.errors import InvalidData
+from ..vectors.trouble import VERSION
 
 FORMAT = "faultspace-audit-scoreboard/1"
 
@@ -39,7 +40,7 @@ class Tally:
 
 @dataclass(frozen=True)
 class Audited:
-    """This is one implementation. `title`: what it is; `seconds`: what the audit took."""
+    """This is one implementation. `title`: what it is; `seconds`: what the audit took; `vectors`: the version of those that were asked."""
 
     name: str
     title: str
@@ -47,6 +48,7 @@ class Audited:
     needs: str
     seconds: float
     tallies: tuple[Tally, ...]
+    vectors: int = VERSION
 
 
 @dataclass(frozen=True)

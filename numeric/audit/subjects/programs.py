@@ -119,7 +119,8 @@ class Program:
             if self._pending or selector.select(0):
                 raise Broken("printed a line that nobody asked for, after its last answer")
             selector.register(process.stdin, selectors.EVENT_WRITE)
-            while b"\n" not in self._pending:
+            heard, whole = bytearray(), False
+            while not whole:
                 if time.monotonic() > deadline:
                     raise Broken(f"no answer within {seconds:g} s")
                 ready = selector.select(min(GLANCE, max(deadline - time.monotonic(), 0)))
@@ -138,10 +139,11 @@ class Program:
                         chunk = os.read(process.stdout.fileno(), 1 << 16)
                         if not chunk:
                             raise Broken(f"ended without an answer{self._last_words(process)}")
-                        self._pending += chunk
-                if len(self._pending) > LONGEST_ANSWER:
+                        heard += chunk
+                        whole = b"\n" in chunk  # looked for in what is new: an answer may be long
+                if len(heard) > LONGEST_ANSWER:
                     raise Broken(f"printed more than {LONGEST_ANSWER} bytes without an end of line")
-        answer, _, self._pending = self._pending.partition(b"\n")
+        answer, _, self._pending = bytes(heard).partition(b"\n")
         self._see_who_stays()
         return answer
 

@@ -48,7 +48,8 @@ MANNERS = {
     "leaves-no-files": "While it is asked, the function leaves no file in the working folder, nor in that of temporary files.",
     "leaves-the-state": "What a process has one of is after the call as it was before: random numbers of numpy and of the language, "
     "handling of floating-point errors, filters of warnings, the working folder, the environment, threads, open files, signals, timers, "
-    "hooks, the log, the context of decimals, the mask of files, limits.",
+    "hooks, the log, the context of decimals, the mask of files, limits, priority and processors, functions of libraries, and how "
+    "processes are started.",
     "right-on-long-records": "On a record of the length given, made by signs through the system, some of them late or of many digits, the "
     "answer differs from the true one by no more than half of a unit in each quantity named.",
     "earlier-answers-stay": "An answer is kept while two other questions of the same shapes are asked: it is the same in every bit after "

@@ -224,11 +224,12 @@ class UnexcitingVector:
 
 
 def samples_that_settle(p: int, lag: int) -> int:
-    """Return how many samples show that the ranks have settled: SETTLED equal gaps, of windows with WIDE times as many columns as rows.
+    """Return how many samples show that the ranks have settled, in windows with WIDE times as many columns as rows: SETTLED equal gaps, and
+    in the last third of the gaps no other one, since of many gaps a few are equal by chance.
 
     Below that a number of faults is not to be told from the data alone: a longer lag would look the same.
     """
-    longest = lag + SETTLED
+    longest = max(lag + SETTLED, -(-3 * (lag - 1) // 2) + 1)
     return (WIDE * p + 1) * longest - 1
 
 

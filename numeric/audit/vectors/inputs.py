@@ -4,6 +4,7 @@ LONG_WINDOW         block rows of a window that is longer than any of these syst
 with_input          data whose residual is known
 sine_samples        cos(k a), cos a = 3/5: rational and without a period
 unexciting_inputs   a constant and a sine
+alike_inputs        two inputs of which one is the other, minus twice the other, or the other a sample later
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.signals import simulate
 from faultspace.exact.system.systems import ResidualSystem
 
-from .rationals import matrix
+from .rationals import fractions, matrix
 
 LONG_WINDOW = 10
 
@@ -40,3 +41,10 @@ def sine_samples(count: int) -> list[Fraction]:
 def unexciting_inputs(samples: int) -> dict[str, Matrix]:
     """Return two inputs of one channel: a constant and a sine, exciting of order one and two."""
     return {"constant": matrix([[Fraction(3, 2)]] * samples, 1), "sine": matrix([[x] for x in sine_samples(samples)], 1)}
+
+
+def alike_inputs(u: Matrix) -> dict[str, Matrix]:
+    """Return two inputs of as many samples as the one given (N, 1), of which the second says nothing that the first has not said."""
+    first = [row[0] for row in fractions(u)]
+    seconds = {"same": first, "turned": [-2 * x for x in first], "delayed": [Fraction(0), *first[:-1]]}
+    return {name: matrix([list(pair) for pair in zip(first, second, strict=True)], 2) for name, second in seconds.items()}

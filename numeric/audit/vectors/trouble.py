@@ -23,7 +23,7 @@ from .fault_vectors import FaultVector
 from .rationals import ROUNDING
 from .shipped_vectors import FORMAT, IdentificationVector, StructureVector
 
-VERSION = 3
+VERSION = 4
 SEED = 0
 
 

@@ -18,6 +18,8 @@ import numpy as np
 from faultspace.numeric.audit import reference
 from tests.numeric.audit.breaking import Mutant, mutant
 
+CORES = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 1  # that this process may use
+
 
 def _reading(change: Callable[[Any], Any]) -> dict[str, Callable[..., Any]]:
     """Return functions that read every array by way of `change`."""
@@ -160,6 +162,24 @@ def _hoarding() -> Callable[..., Any]:
     return fault_space
 
 
+def _bound_to_a_core() -> None:
+    """Once and for all."""
+    os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+
+
+def _patched() -> None:
+    """Once and for all."""
+    if np.linalg.norm.__name__ == "norm":
+
+        def patient(*arguments: Any, **options: Any) -> Any:
+            return _NORM(*arguments, **options)
+
+        np.linalg.norm = patient
+
+
+_NORM = np.linalg.norm
+
+
 def _write_here() -> None:
     Path("cache.npy").write_text("", "utf-8")
 
@@ -179,6 +199,8 @@ MANNERS: tuple[Mutant, ...] = (
     mutant("wanders", "another folder made the present one", "leaves-the-state", fault_dimension=_after(lambda: os.chdir("/"))),
     mutant("exports", "an environment variable set", "leaves-the-state", fault_dimension=_after(lambda: os.environ.update(LEFT="1"))),
     mutant("leaves-a-thread", "a thread left running", "leaves-the-state", fault_dimension=_after(_left_thread)),
+    mutant("one-core", "the process bound to one core", "leaves-the-state", fault_dimension=_after(_bound_to_a_core)),
+    mutant("patches", "a function of numpy replaced for all", "leaves-the-state", fault_dimension=_after(_patched)),
     mutant("chatters", "prints", "prints-nothing", fault_dimension=_after(lambda: print("rank 4"))),
     mutant("chatters-below", "writes to the descriptor", "prints-nothing", fault_dimension=_after(lambda: os.write(1, b"rank 4\n"))),
     mutant("caches-here", "a file in the present folder", "leaves-no-files", fault_dimension=_after(_write_here)),

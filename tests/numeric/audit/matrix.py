@@ -1,88 +1,69 @@
-"""`python -m tests.numeric.audit.matrix --out FILE [--jobs N]`: every mutant through every check of its functions, as Markdown tables.
+"""`python -m tests.numeric.audit.matrix --out FILE`: every mutant with the checks that catch it, as Markdown tables.
 
-matrix     (mutant, slug) -> (failed, asked)
-page       one table a function: a row a mutant, a column a slug
+page        our mutants, and those whose writers had not seen the checks
+
+Nothing is computed: the checks that our mutants fail are named beside them and asked by `test_mutants`; what catches the unseen ones
+stands in `unseen/caught_by.json`, which `python -m tests.numeric.audit.unseen.table --first --keep` writes, and is asked by
+`unseen/test_caught`.
 """
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from contextlib import chdir
-from multiprocessing import get_context
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from tempfile import TemporaryDirectory
-
-from rich.progress import track
 
 from faultspace.numeric.audit.adapter import FUNCTIONS, offered
-from faultspace.numeric.audit.checks.catalogue import all_checks
-from faultspace.numeric.audit.records import Demand
-from faultspace.numeric.audit.running import audit
-from tests.numeric.audit.mutants import MUTANTS, Mutant
+from faultspace.numeric.audit.vectors.trouble import VERSION
+from tests.numeric.audit.mutants import MUTANTS
+from tests.numeric.audit.unseen.catalogue import ALL, RIGHT
+from tests.numeric.audit.unseen.table import kept
 
-Counts = Mapping[tuple[str, str], tuple[int, int]]
-HEAD = """# Mutants against checks
+HEAD = f"""# Mutants and what catches them
 
-Our reference with one thing broken, put through the whole audit: how many of a check's vectors fail. Bold is the check that the tests name
-for the mutant. Columns where nothing fails are left out. Made by `python -m tests.numeric.audit.matrix --out numeric/audit/MUTANTS.md`.
+Made by `python -m tests.numeric.audit.matrix --out numeric/audit/MUTANTS.md`, with vectors of version {VERSION}.
 
-The counts are those of one machine. At the edge of rounding (`fault-space-other-units`, `fault-dimension-1e6`) a vector more or less fails
-on another, and whether square-memory is seen in `time-grows-with-N` depends on the machine's load: no test relies on it.
+## Ours
+
+Our reference with one thing broken, and the checks that it must fail: `tests/numeric/audit/test_mutants.py` asks them all. Each kind of
+trouble has one more mutant, in `tests/numeric/audit/test_trouble_mutants.py`.
+"""
+UNSEEN = """## Unseen
+
+Whoever wrote these had not read the vectors or the checks. Beside each stands one check that it fails.
+`python -m pytest -m slow tests/numeric/audit/unseen/test_caught.py` asks each that check again; one in thirty is asked daily.
 """
 
 
-def counted(place: int) -> dict[tuple[str, str], tuple[int, int]]:
-    """The counts are those of one mutant, which has a process of its own: some change what the next one would find."""
-    mutant = MUTANTS[place]
-    result: dict[tuple[str, str], tuple[int, int]] = {}
-    for record in audit(mutant.adapter):
-        failed, asked = result.get((mutant.name, record.slug), (0, 0))
-        if record.kind != Demand.FREE:
-            result[mutant.name, record.slug] = failed + record.failed, asked + 1
-    return result
+def page(caught_by: Mapping[str, str]) -> str:
+    """The page has both tables."""
+    return "\n".join([HEAD, *_ours(), UNSEEN, *_unseen(caught_by)]).rstrip() + "\n"
 
 
-def page(mutants: Sequence[Mutant], counts: Counts) -> str:
-    """The page has all tables."""
-    parts = [HEAD]
-    slugs = list(dict.fromkeys((one.function, one.slug) for one in all_checks()))
-    for function in FUNCTIONS:
-        rows = [one for one in mutants if function in offered(one.adapter)]
-        columns = [slug for of, slug in slugs if of == function and any(counts.get((one.name, slug), (0, 0))[0] for one in rows)]
-        parts.append(f"## {function}\n")
-        parts.append("| mutant | what is wrong | " + " | ".join(columns) + " |")
-        parts.append("|---" * (2 + len(columns)) + "|")
-        for one in rows:
-            cells = [_cell(counts.get((one.name, slug), (0, 0)), slug in (one.caught_by, *one.also)) for slug in columns]
-            parts.append(f"| {one.name} | {one.wrong} | " + " | ".join(cells) + " |")
-        parts.append("")
-    return "\n".join(parts).rstrip() + "\n"
+def _ours() -> Iterator[str]:
+    yield from ("| mutant | of | what is wrong | fails |", "|---|---|---|---|")
+    for one in MUTANTS:
+        of = [name for name in FUNCTIONS if name in offered(one.adapter)]
+        fails = ", ".join(f"`{slug}`" for slug in (one.caught_by, *one.also))
+        yield f"| {one.name} | {of[0] if len(of) == 1 else f'{len(of)} functions'} | {one.wrong} | {fails} |"
+    yield ""
 
 
-def _cell(count: tuple[int, int], named: bool) -> str:
-    failed, asked = count
-    cell = f"{failed}/{asked}" if failed else ""
-    return f"**{cell}**" if named else cell
+def _unseen(caught_by: Mapping[str, str]) -> Iterator[str]:
+    yield from ("| mutant | what is wrong | fails |", "|---|---|---|")
+    for one in ALL:
+        if one.name in RIGHT:
+            fails = f"nothing, for it is right by RULES.md: {RIGHT[one.name]}"
+        else:
+            fails = f"`{caught_by[one.name]}`" if one.name in caught_by else "**nothing: it gets through**"
+        yield f"| {one.name} | {one.wrong.replace('|', '&#124;')} | {fails} |"
 
 
 def main() -> None:
     """This writes the page."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, required=True, metavar="FILE")
-    parser.add_argument("--jobs", type=int, default=1, metavar="N")
-    options = parser.parse_args()
-    out: Path = options.out.resolve()
-    counts: dict[tuple[str, str], tuple[int, int]] = {}
-    with (
-        ProcessPoolExecutor(options.jobs, get_context("spawn"), max_tasks_per_child=1) as pool,
-        TemporaryDirectory() as folder,
-        chdir(folder),
-    ):
-        for found in track(pool.map(counted, range(len(MUTANTS))), "mutants", len(MUTANTS)):
-            counts |= found
-    out.write_text(page(MUTANTS, counts), "utf-8")
+    parser.parse_args().out.write_text(page(kept()), "utf-8")
 
 
 if __name__ == "__main__":

@@ -305,6 +305,22 @@ def test_json_has_versions_answers_and_truths_and_comes_back(tmp_path: Path) -> 
     assert len(ElementTree.parse(tmp_path / "junit.xml").findall(".//testcase")) == len(found["records"])
     bad = call("audit", "--from", str(file), "--badge", str(tmp_path / "badge.png"))
     assert bad.code == 2 and "--badge: got" in bad.err
+    some = call("audit", "--from", str(file), "--check", "*[two-faults]", "-q")
+    assert (some.code, some.out) == (0, "2 checks of fault_dimension, reconstruct: 0 failed\n")
+    none = call("audit", "--from", str(file), "--check", "order-of-calls*")
+    assert none.code == 2 and "no result of that name" in none.err
+    marked = tmp_path / "known.txt"
+    marked.write_text("fault-signal[two-faults]: it passes\n", "utf-8")
+    red = call("audit", "--from", str(file), "--expected-failures", str(marked), "-q")
+    assert red.code == 1 and "unexpected pass" in red.out, "what is expected is looked at in what was printed before, too"
+    for option in (("mine.py",), ("--seed", "3"), ("--quick",), ("--peer", "slycot")):
+        other = call("audit", *option, "--from", str(file))
+        assert other.code == 2 and other.out == "" and "--from reports what was asked before" in other.err
+
+
+def test_a_function_in_place_of_a_check_is_told_how_to_ask_for_it() -> None:
+    run = call("audit", "--check", "structure")
+    assert run.code == 2 and "all that ask it are '*-structure'" in run.err
 
 
 @pytest.mark.parametrize(

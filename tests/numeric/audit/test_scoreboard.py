@@ -23,8 +23,9 @@ from faultspace.numeric.audit.scoreboard.boards import main, merged, tallies
 from faultspace.numeric.audit.scoreboard.pages import findings, table, write_pages
 from faultspace.numeric.audit.scoreboard.records import Audited, Board
 from faultspace.numeric.audit.vectors.shipped_vectors import shipped
-from faultspace.numeric.audit.vectors.trouble import default_troubles
-from tests.numeric.audit.mutants import MUTANTS
+from faultspace.numeric.audit.vectors.trouble import VERSION, default_troubles
+from tests.numeric.audit.matrix import page
+from tests.numeric.audit.unseen.table import kept
 
 ROOM = Path(__file__).resolve().parents[3] / "numeric" / "audit"
 NUMBER = re.compile(r"-?\b\d+(?:\.\d+)?(?:e[-+]?\d+)?\b")
@@ -133,12 +134,8 @@ def test_pages_without_marks_are_left_alone(tmp_path: Path) -> None:
     assert table(BOARD).count("\n") > 50
 
 
-def test_the_matrix_of_mutants_is_of_these_mutants() -> None:
-    """Made by `python -m tests.numeric.audit.matrix`; that each is caught where it is said is `test_mutants`."""
-    lines = (ROOM / "MUTANTS.md").read_text("utf-8").splitlines()
-    rows = {line.split(" | ")[0].removeprefix("| "): line for line in lines if line.startswith("| ") and not line.startswith("| mutant")}
-    assert list(dict.fromkeys(rows)) and set(rows) == {one.name for one in MUTANTS}
-    for one in MUTANTS:
-        if one.name == "by-identity":  # whether an address comes again is for the allocation of memory to say
-            continue
-        assert one.wrong in rows[one.name] and re.search(r"\*\*[1-9]\d*/\d+\*\*", rows[one.name]), one.name
+def test_the_page_of_mutants_is_of_these_mutants_and_vectors() -> None:
+    """That each is caught where it is said are `test_mutants` and `unseen/test_caught`."""
+    text = (ROOM / "MUTANTS.md").read_text("utf-8")
+    assert text == page(kept()), "make it again: python -m tests.numeric.audit.matrix --out numeric/audit/MUTANTS.md"
+    assert f"vectors of version {VERSION}" in text and "gets through" not in text

@@ -149,6 +149,7 @@ def test_the_poles_are_those_planted() -> None:
 def test_the_sizes_and_modes_are_those_that_the_kinds_name() -> None:
     found = {slug: system_of(one) for slug, one in TROUBLES.items()}
     assert (found["order-12"].n, found["order-0"].n, found["no-fault"].m) == (12, 0, 0)
+    assert (found["no-fault-in-one-output"].p, found["no-fault-in-one-output"].m) == (1, 0)
     assert (found["six-by-six"].m, found["six-by-six"].p, found["square-D"].m) == (6, 6, found["square-D"].p)
     assert max(one.n for one in found.values()) == 12 and max(one.p for one in found.values()) == 6
     known = {slug: analyze(one) for slug, one in found.items()}

@@ -223,6 +223,7 @@ CARELESS: dict[str, Functions] = {
     "small-D": _model(lambda A, B, C, D: (A, B, C, np.round(D, 2))),
     "large-D": _model(lambda A, B, C, D: (A, B, C, np.clip(D, -100, 100))),
     "no-fault": _ranks(lambda r, ranks: [max(rank, s + r.shape[1]) for s, rank in enumerate(ranks)]),
+    "no-fault-in-one-output": _unseen("window-ranks-takes-one-output-for-full-rank"),
     "pure-noise": _ranks(lambda r, ranks: [min(rank, (r.shape[1] - 1) * s + 1) for s, rank in enumerate(ranks, start=1)]),
     "order-0": {"structure": _largest_pole},
     "delays": {"structure": _orders},

@@ -11,6 +11,7 @@ import hashlib
 import importlib.util
 import io
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -405,6 +406,31 @@ def test_a_script_in_octave_says_right_of_what_is_right_and_wrong_of_what_is_wro
         (tmp_path / f"{check.function}.m").write_text(text, "utf-8")
         ran = run(*OCTAVE, "bug.m", cwd=tmp_path)
         assert ran.returncode == code and ("WRONG" in ran.stdout) == bool(code), ran.stdout + ran.stderr
+
+
+OCTAVE_ALONE = re.compile(
+    r"\bend(if|for|while|function|switch)\b|\bend_try_catch\b|\bunwind_protect\b|\bprintf\b|\buntil\b|#|\+=|-=|\*\*|!|\"|\)\("
+)
+
+
+def matlab_too(text: str) -> list[str]:
+    """Return what of a text, strings and comments aside, only Octave understands, as far as these words and signs tell."""
+    code = re.sub(r"%[^\n]*", "", re.sub(r"(?<![\w)\]}.'])'[^'\n]*'", "''", text))
+    return [one.group() for one in OCTAVE_ALONE.finditer(code)]
+
+
+@pytest.mark.parametrize("name", SCRIPTED)
+def test_a_script_for_matlab_is_the_one_that_octave_runs(name: str) -> None:
+    """There is no MATLAB where this was made: what the two share is run in Octave, and the texts have nothing of Octave alone."""
+    matlab, octave_text = (script(name, FUNCTIONS, language).splitlines() for language in ("matlab", "octave"))
+    differ = [(one, other) for one, other in zip(matlab, octave_text, strict=True) if one != other]
+    assert all(one.startswith("%") and other.startswith("%") for one, other in differ) and len(differ) <= 2
+    assert matlab_too("\n".join(matlab)) == []
+
+
+def test_the_reader_for_matlab_is_the_one_that_octave_runs() -> None:
+    assert matlab_too((READERS / "read_checks.m").read_text("utf-8")) == []
+    assert matlab_too('if a != b, printf("d", a); endif # no\n') == ["!", "printf", '"', '"', "endif", "#"]
 
 
 @pytest.mark.parametrize("language", sorted(LANGUAGES))

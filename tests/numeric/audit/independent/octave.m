@@ -213,6 +213,7 @@ end
 
 function n_v = count_faults(y, u, n)
   p = columns(y);  m = columns(u);
+  if n < 0 || n != fix(n), error("an order of %g is none", n); end
   if rows(y) < (p + m + 1) * (n + 3), error("%d samples are too few for order %d", rows(y), n); end
   [together, noisy] = growth([y, u], m);
   if together < m || (noisy && together == m + p), error("undecided"); end

@@ -19,10 +19,12 @@ from tests.numeric.audit.unseen import (
     identify,
     identify_channels,
     left_in_the_process,
+    left_in_the_system,
     limits,
     manners,
     reconstruct,
     residual,
+    small_print,
     structure,
     structure_ranks,
     window_ranks,
@@ -46,6 +48,8 @@ FILES = (
     far_along,
     close_together,
     left_in_the_process,
+    small_print,
+    left_in_the_system,
 )
 
 
@@ -58,7 +62,9 @@ def _all() -> tuple[Unseen, ...]:
 ALL = _all()
 BY_NAME = {one.name: one for one in ALL}
 RIGHT = {
+    "fault-dimension-says-p-where-nothing-is-known": "where all outputs are faulty, or nothing is known, a number is free",
     "identify-squeezes-a-single-state": "a matrix of one row or column may be answered as a list of its numbers",
+    "structure-lists-orders-from-the-largest": "the order of a list of zeros, or of their orders, is anybody's",
     "structure-goes-through-the-coefficients": "a zero is right within what rounding of the pencil may make of it",
     "fault-dimension-takes-a-sine-for-none": "a sine does not excite: no number is due",
     "identify-saves-memory-on-long-records": "of long records whole numbers are compared, and of models those are small",

@@ -1,14 +1,19 @@
 """What the audit says of each mutant: the slugs that fail, or that it escapes.
 
-    python -m tests.numeric.audit.unseen.table [--only GLOB] [--json FILE] [--seconds N] [--check-seconds N] [--first]
+    python -m tests.numeric.audit.unseen.table [--only GLOB] [--json FILE] [--seconds N] [--check-seconds N] [--first [--keep]]
 
 Each mutant is audited in processes of its own: as an adapter given by name, each check within `--check-seconds`, all of them within
 `--seconds`. With `--first` it is asked in a copy of this process, as an object is, up to the first check that it fails; one that
-fails none there, or does not come to an end, is audited whole as without. FILE is written after each mutant, and what stands in it already
-is not asked again, so that a run can be stopped and taken up. The exit code is 1 where a mutant escapes that RULES.md does not call right.
+fails none there, or does not come to an end, is audited whole as without. The check that is known to fail (`caught_by.json`, which
+`--keep` writes) is asked first, then those that compare answers, refusals, manners, and last those of long records. FILE is written
+after each mutant, and what stands in it already is not asked again, so that a run can be stopped and taken up. The exit code is 1 where a
+mutant escapes that RULES.md does not call right.
 
 outcome     the slugs that fail, by how many checks, and one of the details; or what went wrong
 first_of    the first check that fails alone
+in_turn     the checks of a mutant's function, in the order in which they are asked for the first that fails
+still_caught    whether the check that is known to catch a mutant does so now
+kept        mutant -> full name of a check that it failed when it was asked last
 escapes     names of those that no check catches
 """
 
@@ -28,19 +33,44 @@ from pathlib import Path
 from typing import Any
 
 from faultspace.numeric.audit.checks.catalogue import chosen
+from faultspace.numeric.audit.records import Check, CheckResult, Demand
 from faultspace.numeric.audit.running import audit
 from faultspace.numeric.audit.subjects.opening import InProcess
+from faultspace.numeric.audit.upstream.recipes import MANNERS
 from tests.numeric.audit.unseen.catalogue import ALL, BY_NAME, RIGHT
 from tests.numeric.audit.unseen.form import Unseen
 
+CAUGHT_BY = Path(__file__).with_name("caught_by.json")
+DEAR = ("memory-grows-with-N", "time-grows-with-N", "right-on-long-records")
 SHOWN = 4  # slugs of one mutant in a line
+
+
+def kept() -> dict[str, str]:
+    """Return what CAUGHT_BY holds."""
+    known: dict[str, str] = json.loads(CAUGHT_BY.read_text("utf-8")) if CAUGHT_BY.exists() else {}
+    return known
+
+
+def in_turn(name: str) -> list[Check]:
+    """Return the checks of the function of that mutant: the one that is known to fail, the others, those that take long."""
+    known = kept().get(name)
+
+    def place(one: Check) -> tuple[bool, int]:
+        """What compares answers names the cause; a refusal, or manners, may be missed for another reason."""
+        return one.full_name != known, 3 if one.slug in DEAR else 2 if one.slug in MANNERS else int(one.kind is Demand.MUST_REFUSE)
+
+    return sorted(chosen({BY_NAME[name].function}), key=place)
+
+
+def _told(one: CheckResult) -> tuple[str, str, str, str]:
+    return one.full_name, one.slug, str(one.verdict), one.detail
 
 
 def _audited(name: str, check_seconds: float, into: Any) -> None:
     """Audit one mutant and send what fails; the process leads a group, which can be ended with all that it has started."""
     os.setpgid(0, 0)
     found = audit(f"tests.numeric.audit.unseen.catalogue:adapters.{name}", seconds=check_seconds)
-    failed = [(one.name, one.slug, str(one.verdict), one.detail) for one in found.failed]
+    failed = [_told(one) for one in found.failed]
     into.send((len(found), failed))
     into.close()
 
@@ -50,11 +80,11 @@ def _up_to_the_first(name: str, _: float, into: Any) -> None:
     os.setpgid(0, 0)
     subject = InProcess(BY_NAME[name].adapter)
     results = []
-    for check in chosen(subject.functions):
+    for check in in_turn(name):
         results.append(subject.perform(check))
         if results[-1].failed:
             break
-    into.send((len(results), [(one.name, one.slug, str(one.verdict), one.detail) for one in results[-1:] if one.failed]))
+    into.send((len(results), [_told(one) for one in results[-1:] if one.failed]))
     into.close()
 
 
@@ -62,6 +92,23 @@ def first_of(one: Unseen, seconds: float, check_seconds: float) -> dict[str, Any
     """Return the first check that a mutant fails in a copy of this process; where there is none, or no end, what the whole audit says."""
     found = _asked(_up_to_the_first, one, seconds, check_seconds)
     return found if found.get("failed") else outcome(one, seconds, check_seconds)
+
+
+def _the_known(name: str, check_seconds: float, into: Any) -> None:
+    """Ask one mutant the check that is known to catch it: in this process, and where it passes there in one of its own."""
+    os.setpgid(0, 0)
+    subject, known = InProcess(BY_NAME[name].adapter), kept()[name]
+    results = [subject.perform(one) for one in in_turn(name)[:1]]
+    if not any(one.failed for one in results):
+        results = list(audit(f"tests.numeric.audit.unseen.catalogue:adapters.{name}", only=[known], seconds=check_seconds))
+    into.send((len(results), [_told(one) for one in results if one.failed]))
+    into.close()
+
+
+def still_caught(one: Unseen, seconds: float = 60.0, check_seconds: float = 30.0) -> bool:
+    """Say whether the check that is known to catch a mutant does so now."""
+    found = _asked(_the_known, one, seconds, check_seconds)
+    return bool(found.get("failed")) and found["first"]["name"] == kept()[one.name]
 
 
 def outcome(one: Unseen, seconds: float, check_seconds: float) -> dict[str, Any]:
@@ -127,6 +174,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     asked.add_argument("--seconds", type=float, default=600.0, help="for one mutant in all")
     asked.add_argument("--check-seconds", type=float, default=30.0, help="for one check of it")
     asked.add_argument("--first", action="store_true", help="stop at the first check that a mutant fails")
+    asked.add_argument("--keep", action="store_true", help=f"write the checks that fail to {CAUGHT_BY.name}")
     options = asked.parse_args(arguments)
     way = first_of if options.first else outcome
     chosen = [one for one in ALL if fnmatch(one.name, options.only)]
@@ -139,6 +187,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             _write(options.json, known)
         print(f"[{number}/{len(chosen)}] {one.name}: {_line(one.name, known[one.name])}", flush=True)
     asked_for = {one.name: known[one.name] for one in chosen}
+    if options.keep:
+        caught_by = kept() | {name: one["first"]["name"] for name, one in asked_for.items() if one.get("first")}
+        caught_by = {one.name: caught_by[one.name] for one in ALL if one.name in caught_by}
+        CAUGHT_BY.write_text(json.dumps(caught_by, indent=1) + "\n", "utf-8")
     left = escapes(asked_for)
     ended = [name for name, one in asked_for.items() if "ended" in one]
     right = sum(not one.get("failed") and "ended" not in one for one in asked_for.values()) - len(left)

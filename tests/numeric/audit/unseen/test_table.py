@@ -37,10 +37,33 @@ def test_what_is_known_is_not_asked_again_and_an_escape_is_told(
 
 
 def test_the_first_check_that_fails_is_enough_and_who_fails_none_is_audited_whole(monkeypatch: pytest.MonkeyPatch) -> None:
-    found = table.first_of(BY_NAME["structure-lists-zeros-inside"], 60.0, 30.0)
+    one = BY_NAME["structure-lists-zeros-inside"]
+    monkeypatch.setattr(table, "kept", dict)
+    found = table.first_of(one, 60.0, 30.0)
     assert found["failed"] == 1 < found["checks"] and list(found["slugs"]) == ["finite-zeros"]
+    monkeypatch.setattr(table, "kept", lambda: {one.name: found["first"]["name"]})
+    assert table.first_of(one, 60.0, 30.0)["checks"] == 1, "what is known to fail is asked first"
+    assert table.still_caught(one)
+    monkeypatch.setattr(table, "kept", lambda: {one.name: "normal-rank[zeros-none]-structure"})
+    assert not table.still_caught(one)
     monkeypatch.setattr(table, "outcome", lambda one, seconds, check_seconds: {"whole": one.name})
     assert table.first_of(BY_NAME["structure-goes-through-the-coefficients"], 60.0, 30.0)["whole"]
+
+
+def test_what_fails_is_written_down_in_the_order_of_the_mutants(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    first, second = ALL[:2]
+    file = tmp_path / "caught_by.json"
+    monkeypatch.setattr(table, "ALL", (first, second))
+    monkeypatch.setattr(table, "CAUGHT_BY", file)
+    named = iter(("b[w]-identify", "a[v]-identify"))
+
+    def answer(one: object, seconds: float, check_seconds: float) -> dict[str, object]:
+        return {"wrong": "w", "checks": 7, "failed": 1, "slugs": {"a": 1}, "first": {"name": next(named)}}
+
+    monkeypatch.setattr(table, "first_of", answer)
+    assert table.main(["--first", "--keep", "--only", second.name]) == 0
+    assert table.main(["--first", "--keep", "--only", first.name]) == 0
+    assert list(json.loads(file.read_text("utf-8")).items()) == [(first.name, "a[v]-identify"), (second.name, "b[w]-identify")]
 
 
 def test_who_is_right_is_a_mutant_that_there_is() -> None:

@@ -1,8 +1,8 @@
-"""refuses-misfit[two-faults-A-more-rows]-structure: arrays that contradict each other are cut, repeated or turned until they fit.
+"""refuses-misfit[two-faults-A-fewer-rows]-structure: arrays that contradict each other are cut, repeated or turned until they fit.
 
 How it is compared: No answer is right. The function raises an error or answers nothing. It must be refused.
 
-Made by faultspace 0.1.0: faultspace audit --reproduce 'refuses-misfit[two-faults-A-more-rows]-structure'
+Made by faultspace 0.1.0: faultspace audit --reproduce 'refuses-misfit[two-faults-A-fewer-rows]-structure'
 --language python
 """
 
@@ -115,7 +115,7 @@ def structure(A: Array, F: Array, C: Array, G: Array) -> ZeroStructure:
 
 # -- the question
 A = np.array([
-    [0.1875, 0.3125, -0.75], [-0.5625, 0.125, 0.5], [0.0, 0.0, 0.0625], [0.0, 0.0, 0.0625]
+    [0.1875, 0.3125, -0.75], [-0.5625, 0.125, 0.5]
 ])
 F = np.array([
     [-2.6666666666666665, -1.6666666666666667], [2.6666666666666665, -1.6666666666666667], [2.0, 0.3333333333333333]

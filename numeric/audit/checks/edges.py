@@ -1,0 +1,228 @@
+"""Questions at the edge of what may be asked: few windows, few samples, no fault, numbers that cannot be, a number of faults that is wrong.
+
+checks            window-ranks-few-windows, window-ranks-shortest-record, fault-dimension-shortest-record, fault-signal-few-samples: what is
+                  due although there is hardly more than nothing; window-ranks-no-fault, fault-signal-no-fault, refuses-no-fault: where no
+                  fault acts; fault-space-wrong-number: more or fewer faults told than act; fault-space-as-many-as-outputs: where there is
+                  no law; refuses-impossible-number: sizes below what any system has
+first, shortest   a vector's first samples with the bound of so short a record, a residual with its ranks
+free_response     a residual without a fault, its system and its first state
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import cache, partial
+from typing import Any
+
+import numpy as np
+
+from faultspace.exact.algebra.matrices import Matrix, rank
+from faultspace.exact.structure.signals import hankel, simulate
+from faultspace.exact.system.systems import ResidualSystem
+
+from ...rounding.residual_conditioning import fault_signal_error
+from ...signal.reconstruction import reconstruct_fault
+from ..making.fault_records import signal_bound
+from ..records import Check, Demand, Function, Measurement, Refused, Severity, Sides
+from ..vectors.exact_comparison import lifted
+from ..vectors.fault_vectors import FaultVector, samples_that_settle
+from ..vectors.rationals import floats, fractions, matrix
+from ..vectors.shipped_vectors import shipped
+from .faults import compared_count, ranks_off, signal_off, spaces_off
+from .laws import LOUD, record
+
+SAMPLES = 200
+WINDOWS = 4
+FEW = 2  # samples, fewer than states
+BELOW = -1
+ROUNDED = 1e-12  # of orthonormal columns of all of a space, to its unit vectors
+TINY = float(np.finfo(float).tiny)  # of nothing nothing comes, and who divides by a bound may
+# Outputs that see states, which die out, stay, or are zero; all have a fault that does not act: A, F, C, G and the first state.
+FREE: dict[str, tuple[list[list[str]], ...]] = {
+    "dying": ([["3/4", "1/4"], ["0", "-1/2"]], [["1/4"], ["1/4"]], [["1", "1"], ["2", "-1"]], [["1"], ["0"]], [["4"], ["-3"]]),
+    "constant": ([["1", "0"], ["0", "1"]], [["1"], ["0"]], [["1", "1"], ["2", "-1"]], [["1"], ["1"]], [["2"], ["-3"]]),
+    "nothing": ([["1/2", "0"], ["0", "1/4"]], [["1"], ["1"]], [["1", "1"], ["2", "-1"]], [["1"], ["0"]], [["0"], ["0"]]),
+    "one-output": ([["3/4", "1/4"], ["0", "-1/2"]], [["1/4"], ["1/4"]], [["1", "1"]], [["1"]], [["4"], ["-3"]]),
+}
+
+
+def checks() -> Iterator[Check]:
+    """This yields all checks of the module."""
+    vectors = {one.slug: one for one in shipped("faults")}
+    for slug, windows in (("one-fault", 1), ("two-faults", 1), ("two-faults", 2)):
+        yield _few_windows(vectors[slug], windows)
+    for slug in ("one-fault", "two-faults"):
+        yield from _shortest(vectors[slug])
+    for slug in ("two-faults", "delayed"):
+        yield _few_samples(vectors[slug])
+    for name in FREE:
+        yield from _no_fault(name)
+    yield _wrong_number(vectors["two-faults"], 1)
+    yield _wrong_number(vectors["one-fault"], 2)
+    yield _as_many_as_outputs(vectors["two-faults"])
+    yield from _impossible(vectors["two-faults"])
+
+
+# -- little ------------------------------------------------------------------------------------------------------------------------------
+
+
+def _few_windows(vector: FaultVector, windows: int) -> Check:
+    due = vector.ranks[:windows]
+
+    def measure(function: Function) -> Iterator[Measurement]:
+        yield from ranks_off(function(floats(vector.r), windows), due)
+
+    effect = "wrong ranks where few windows are asked for"
+    name = f"{vector.slug}-{windows}"
+    return Check("window-ranks-few-windows", "window_ranks", name, "window-ranks", effect, Severity.SILENT, measure)
+
+
+def first(vector: FaultVector, samples: int) -> FaultVector:
+    """Return the vector's first samples, with the bound on the signal that so short a record gives."""
+    late = vector.v.nrows - vector.trusted
+    short = replace(vector, v=vector.v.rows(range(samples)), views={}, trusted=samples - late, gaps=(), space_bounds={})
+    return replace(short, bounds={"residual": None, "signal": signal_bound(short.r, short.system, short.x0)})
+
+
+def shortest(vector: FaultVector) -> tuple[Matrix, tuple[int, ...]]:
+    """Return the record in which the last of WINDOWS windows is square, and their ranks."""
+    short = vector.r.rows(range((vector.system.p + 1) * WINDOWS - 1))
+    return short, tuple(rank(hankel(short, s)) for s in range(1, WINDOWS + 1))
+
+
+def _shortest(vector: FaultVector) -> Iterator[Check]:
+    def ranks(function: Function) -> Iterator[Measurement]:
+        short, due = shortest(vector)
+        yield from ranks_off(function(floats(short), len(due)), due)
+
+    effect = "no ranks, or wrong ones, of a record that has just samples enough"
+    slug = "window-ranks-shortest-record"
+    yield Check(slug, "window_ranks", vector.slug, "window-ranks", effect, Severity.SILENT, ranks)
+
+    def count(function: Function) -> Iterator[Measurement]:
+        enough = vector.r.rows(range(samples_that_settle(vector.system.p, vector.lag)))
+        yield compared_count("n_v", function(floats(enough)), vector.n_v)
+
+    effect = "no number of faults, or a wrong one, from a record that has just samples enough"
+    slug = "fault-dimension-shortest-record"
+    yield Check(slug, "fault_dimension", vector.slug, "proposition-3", effect, Severity.SILENT, count)
+
+
+def _few_samples(vector: FaultVector) -> Check:
+    effect = "no fault signal, or a wrong one, in a record that is shorter than the order"
+
+    def measure(function: Function) -> Iterator[Measurement]:
+        yield from signal_off(first(vector, FEW), function)
+
+    return Check("fault-signal-few-samples", "reconstruct", vector.slug, "trajectory-recovered", effect, Severity.SILENT, measure)
+
+
+# -- nothing -----------------------------------------------------------------------------------------------------------------------------
+
+
+@cache
+def free_response(name: str) -> tuple[Matrix, ResidualSystem, Matrix]:
+    """Return the exact residual (SAMPLES, p), the system and its first state."""
+    A, F, C, G, start = FREE[name]
+    system, x0 = ResidualSystem.of(A, F, C, G), matrix(start, 1)
+    return simulate(system, x0, matrix([[0]] * SAMPLES, 1)).residuals, system, x0
+
+
+def _no_fault(name: str) -> Iterator[Check]:
+    """The ranks are what they are. The signal is zero, and to find nothing to restore is as right; a space of faults there is not."""
+    r, system, x0 = free_response(name)
+
+    def ranks(function: Function) -> Iterator[Measurement]:
+        due = tuple(rank(hankel(r, s)) for s in range(1, WINDOWS + 1))
+        yield from ranks_off(function(np.ascontiguousarray(floats(r)), WINDOWS), due)
+
+    effect = "a free response is taken for a fault"
+    yield Check("window-ranks-no-fault", "window_ranks", name, "window-ranks", effect, Severity.SILENT, ranks)
+    parts = tuple(floats(M) for M in (system.A, system.F, system.C, system.G))
+    arguments = np.ascontiguousarray(floats(r)), *parts, floats(x0).ravel()
+    yield Check("fault-signal-no-fault", "reconstruct", name, "trajectory-recovered", effect, Severity.SILENT, partial(_silent, arguments))
+    if system.p > 1:
+        space = arguments[0], parts[0], parts[2], 1, WINDOWS
+        yield _refuses("refuses-no-fault", "fault_space", name, "fault matrices of a record without a fault", space, "problem-11")
+
+
+def _silent(arguments: tuple[Any, ...], function: Function) -> Iterator[Measurement]:
+    """Compare with zeros, within what rounding of the free response may leave."""
+    r, A, F, C, G, x0 = arguments
+    bound = fault_signal_error(r, A, F, C, G, reconstruct_fault(r, A, F, C, G, x0=x0), x0=x0) if r.any() else TINY
+    try:
+        answer = lifted(function(*(one.copy() for one in arguments)), "v", (SAMPLES, 1))
+    except Refused:
+        yield Measurement("refused, as it may be", 0.0, 0.0)
+        return
+    sides = Sides("signal", fractions(answer), [[0]] * SAMPLES, bound)
+    yield Measurement("v", float(np.linalg.norm(floats(answer))), bound, sides)
+
+
+# -- what cannot be ----------------------------------------------------------------------------------------------------------------------
+
+
+def _wrong_number(vector: FaultVector, told: int) -> Check:
+    """To refuse is right, and so are the columns of the faults that act, from who counts them himself."""
+    system, s = vector.system, vector.system.n + 1
+
+    def measure(function: Function) -> Iterator[Measurement]:
+        try:
+            got = function(floats(vector.r), floats(system.A), floats(system.C), told, s)
+        except Refused:
+            yield Measurement("refused, as it may be", 0.0, 0.0)
+            return
+        yield from spaces_off(got, vector.space, vector.space_bounds[s])
+
+    effect = "fault matrices that do not explain the data: as many columns as were told"
+    name = f"{vector.slug}-{told}-told"
+    return Check("fault-space-wrong-number", "fault_space", name, "problem-11", effect, Severity.SILENT, measure)
+
+
+def _as_many_as_outputs(vector: FaultVector) -> Check:
+    """Where every output is faulty there is no law, and every column explains the residual: all of them, or a refusal."""
+    system, m = vector.system, vector.n_v
+    C = system.C.rows(range(m))
+    size = system.n + m
+    everything = matrix([[int(i == j) for j in range(size)] for i in range(size)], size)
+
+    def measure(function: Function) -> Iterator[Measurement]:
+        try:
+            got = function(floats(vector.r.columns(range(m))), floats(system.A), floats(C), m, system.n + 1)
+        except Refused:
+            yield Measurement("refused, as it may be", 0.0, 0.0)
+            return
+        yield from spaces_off(got, everything, ROUNDED)
+
+    effect = "true columns left out where the record excludes none"
+    name, slug = f"{vector.slug}-two-outputs", "fault-space-as-many-as-outputs"
+    return Check(slug, "fault_space", name, "problem-11", effect, Severity.SILENT, measure)
+
+
+def _impossible(vector: FaultVector) -> Iterator[Check]:
+    """An order or a number of faults below zero, and windows of no block row."""
+    model = next(one for one in shipped("identification") if one.C.nrows > 1 and one.B.ncols > 1)
+    y, u, n, s = floats(model.y), floats(model.u), model.order, model.block_rows
+    r, A, C = (floats(M) for M in (vector.r, vector.system.A, vector.system.C))
+    noisy = shipped("noisy")[0]
+    of_record = record(noisy, LOUD)
+    effect = "an answer to a question that cannot be meant"
+    for function, name, arguments in (
+        ("identify", "order-below-0", (y, u, BELOW, s)),
+        ("identify", "no-block-rows", (y, u, n, 0)),
+        ("identify", "block-rows-below-0", (y, u, n, BELOW)),
+        ("fault_space", "faults-below-0", (r, A, C, BELOW, len(A) + 1)),
+        ("count_faults", "order-below-0", (*of_record, BELOW)),
+        ("identified_fault_space", "order-below-0", (*of_record, BELOW, noisy.system.m)),
+        ("identified_fault_space", "faults-below-0", (*of_record, noisy.system.n, BELOW)),
+    ):
+        yield _refuses("refuses-impossible-number", function, name, effect, arguments)
+
+
+def _refuses(slug: str, function: str, vector: str, effect: str, arguments: tuple[Any, ...], claim: str | None = None) -> Check:
+    def measure(called: Callable[..., Any]) -> Iterator[Measurement]:
+        called(*(one.copy() if isinstance(one, np.ndarray) else one for one in arguments))
+        return iter(())
+
+    return Check(slug, function, vector, claim, effect, Severity.SILENT, measure, Demand.MUST_REFUSE)
