@@ -21,15 +21,17 @@ import faultspace as fs
 from faultspace.base.errors import InvalidInput
 from faultspace.base.progress import silent
 from faultspace.exact import ResidualSystem
+from faultspace.exact.algebra.fields import QQ, PrimeField, field_from_json
 from faultspace.packaged_examples import CLAIMS, content
 from faultspace.proofs.brought import boxes, deciding, known_systems
 from faultspace.proofs.brought.answers import ClaimAnswer, Counterexample
-from faultspace.proofs.brought.boxes import Box, height, stretches
+from faultspace.proofs.brought.boxes import Box, stretches
 from faultspace.proofs.brought.claim_files import read_claims
 from faultspace.proofs.brought.claiming import decide_claims, explain
 from faultspace.proofs.brought.claims import Answered, Claim, make_claim
 from faultspace.proofs.brought.known_cases import smaller
 from faultspace.proofs.language.evaluating import Exactly, evaluate
+from faultspace.proofs.quantities.blocks import height
 from faultspace.proofs.quantities.registry import Subject, quantities
 from faultspace.proofs.trust.structure_certificates import accept
 from faultspace.proofs.verdict.ledger import load
@@ -327,7 +329,7 @@ BAD = [
     ("[claim.x]\nhypotheses = 'n == 1'\nconclusion = 'n == 1'", "expected a list of at most"),
     ("[claim.x]\nconclusion = 'n == 1'\nabout = 'pairs'", "line 3: claim.x.about: got 'pairs'; the nearest is pair"),
     ("[claim.x]\nconclusion = 'n == 1'\nabout = 'recrod'", "line 3: claim.x.about: got 'recrod'; the nearest is record"),
-    ("[claim.x]\nconclusion = 'n == 1'\nfields = ['Q(a)']", "number fields are not searched yet"),
+    ("[claim.x]\nconclusion = 'n == 1'\nfields = ['Q(a)']", 'expected "Q", "GF(q)"'),
     ("[claim.x]\nconclusion = 'n == 1'\nfields = ['GF(4)']", "with a prime q"),
     ("[claim.x]\nconclusion = 'n == 1'\nfields = ['Q', 'Q']", "none twice"),
     ("[claim.x]\nconclusion = 'n == 1'\nfields = []", "expected a list such as"),
@@ -456,11 +458,11 @@ def test_a_claim_of_the_ledger_gets_its_verdict(name: str) -> None:
 
 
 def test_the_known_systems_are_many_and_of_every_kind() -> None:
-    for prime in (None, 2, 5):
-        listed = known_systems.known_systems(prime)
+    for field in (QQ, PrimeField(2), PrimeField(5), field_from_json({"minimal_polynomial": ["-2", "0", "1"]})):
+        listed = known_systems.known_systems(field)
         assert len(listed) > 300 and {one.origin for one in listed} == {"corpus", "adversary"}
         assert {one.subject.system.field for one in listed} == {listed[0].subject.system.field}
-    sizes = {(one.subject.system.n, one.subject.system.m, one.subject.system.p) for one in known_systems.known_systems(None)}
+    sizes = {(one.subject.system.n, one.subject.system.m, one.subject.system.p) for one in known_systems.known_systems(QQ)}
     assert {0, 1, 2, 3} <= {n for n, _, _ in sizes} and 0 in {m for _, m, _ in sizes} and 0 in {p for _, _, p in sizes}
 
 
