@@ -30,8 +30,10 @@ from faultspace.proofs.brought.claim_files import read_claims
 from faultspace.proofs.brought.claiming import decide_claims, explain
 from faultspace.proofs.brought.claims import Answered, Claim, make_claim
 from faultspace.proofs.brought.known_cases import smaller
+from faultspace.proofs.brought.record_boxes import RecordBox
 from faultspace.proofs.language.evaluating import Exactly, evaluate
 from faultspace.proofs.quantities.blocks import height
+from faultspace.proofs.quantities.cases import size_of
 from faultspace.proofs.quantities.registry import Subject, quantities
 from faultspace.proofs.trust.structure_certificates import accept
 from faultspace.proofs.verdict.ledger import load
@@ -419,18 +421,35 @@ PAPERS = {one.id: one for one in read_claims(content("example:papers").decode())
 
 
 def test_there_are_ten_examples_and_forty_statements() -> None:
-    assert len(EXAMPLES) == 10 and len(LITERATURE) >= 80
+    assert len(EXAMPLES) == 10 and len(LITERATURE) >= 100
     assert all(one.source and one.statement and one.expected for one in LITERATURE.values())
     assert {one.expected["Q"] for one in LITERATURE.values()} == {Answered.REFUTED, Answered.NOT_REFUTED, Answered.PROVED}
+
+
+def quick_box(box: Box) -> Box:
+    """Return the box with at most two states, of records with at most four samples."""
+    return replace(box, N=(box.N[0], min(box.N[1], 4))) if isinstance(box, RecordBox) else replace(box, n=(1, 2))
 
 
 @pytest.mark.parametrize("name", list(LITERATURE)[:: every()] + list(PAPERS))
 def test_a_statement_of_the_field_gets_its_verdict(name: str) -> None:
     """What is known to be true is not refuted, and what is known to be false is."""
     claim = (LITERATURE | PAPERS)[name]
-    box = claim.boxes["Q"]
-    (answer,) = deciding.decide(replace(claim, boxes={"Q": replace(box, n=(1, 2))}), ablation=False, most=10**9, jobs=1, progress=silent)
+    box = quick_box(claim.boxes["Q"])
+    (answer,) = deciding.decide(replace(claim, boxes={"Q": box}), ablation=False, most=10**9, jobs=1, progress=silent)
     assert answer.as_expected, answer.title
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", list(LITERATURE))
+def test_a_statement_of_the_field_gets_its_verdict_in_its_whole_box(name: str) -> None:
+    """What is known to be false is refuted by the smallest case of the box, with certificates, and by one of at most five rows and columns."""
+    (answer,) = deciding.decide(LITERATURE[name], ablation=False, most=10**9, jobs=1, progress=silent)
+    assert answer.as_expected and answer.tried.exhausted == (answer.verdict != Answered.REFUTED), answer.title
+    if answer.counterexample is not None:
+        assert answer.counterexample.smallest and size_of(answer.counterexample.case)[0] <= 5
+        for one in answer.counterexample.certificates:
+            accept(one)
 
 
 @pytest.mark.parametrize("name", list(EXAMPLES))
