@@ -311,7 +311,8 @@ def _power(base: Matrix, k: int) -> Matrix:
 
 def _samples(found: float, node: Node) -> int:
     if not 0 <= found <= FARTHEST:
-        raise Undefined(f"got {found} as the number of samples in {node.text}, expected an integer >= 0")
+        hint = "; guard it, or begin its windows at max(..., 0)" if found < 0 else ""
+        raise Undefined(f"got {found} as the number of samples in {node.text}, expected an integer >= 0{hint}")
     return int(found)
 
 

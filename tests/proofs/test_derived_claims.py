@@ -29,7 +29,7 @@ from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.verdict.ledger import IN_LANGUAGE, load
 from faultspace.proofs.verdict.verdicts import Verdict
 from faultspace.proofs.verdict.workbench import Workbench
-from tests.thorough import every
+from tests.thorough import THOROUGH, every
 
 
 def proved(conclusion: str, *hypotheses: str) -> tuple[str, ...] | None:
@@ -252,8 +252,9 @@ def attack(seed: int, count: int) -> tuple[int, list[str]]:
 
 @pytest.mark.slow
 def test_many_changed_claims_that_are_derived_are_not_refuted() -> None:
-    followed, wrong = attack(seed=6, count=400)
-    assert not wrong and followed > 60
+    """Each takes a second of processor time or two, nearly all of it for seeing that nothing is derived; some quarter of them is."""
+    followed, wrong = attack(seed=6, count=400 if THOROUGH else 80)
+    assert not wrong and followed > (60 if THOROUGH else 12)
 
 
 @pytest.mark.slow
