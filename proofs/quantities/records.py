@@ -2,7 +2,7 @@
 
     OF_A_RECORD     the quantities of a record, by their names
     Records         many records of the same lengths at once
-    INPUT, BOTH, STATE      the families: ranks of the Hankel matrices of u, of [u; y], and of [X; U_k], each with its k
+    INPUT, OUTPUT, BOTH, STATE      the families: ranks of the Hankel matrices of u, y, [u; y], and of [X; U_k], each with its k
 
 A Hankel matrix with k block rows has N - k + 1 columns, k = 0, ..., N; beyond N it has none, and its rank is 0.
 """
@@ -29,7 +29,7 @@ from .many import Chosen, Column, Many
 from .ranks import Numbers
 from .registry import Kind, Quantity
 
-INPUT, BOTH, STATE = "Hankel of u", "Hankel of [u; y]", "[X; U]"
+INPUT, OUTPUT, BOTH, STATE = "Hankel of u", "Hankel of y", "Hankel of [u; y]", "[X; U]"
 
 
 @dataclass
@@ -143,6 +143,10 @@ def _side_by_side(columns: Integers) -> Integers:
     return np.swapaxes(columns, 1, 2).reshape(count, height, samples * d)
 
 
+def _of_output(records: Records, k: int) -> Integers:
+    return _hankel(records.trajectory()[1], k)
+
+
 def _of_both(records: Records, k: int) -> Integers:
     return _hankel(np.concatenate([records.inputs_in_time, records.trajectory()[1]], axis=2), k)
 
@@ -156,7 +160,7 @@ def _of_input(records: Records, k: int) -> Integers:
     return _hankel(records.inputs_in_time, k)
 
 
-DATA: dict[str, Callable[[Records, int], Integers]] = {INPUT: _of_input, BOTH: _of_both, STATE: _of_state}
+DATA: dict[str, Callable[[Records, int], Integers]] = {INPUT: _of_input, OUTPUT: _of_output, BOTH: _of_both, STATE: _of_state}
 
 
 def _from_data(family: str) -> Callable[[Numbers, int], int]:
@@ -169,6 +173,10 @@ def _exciting(numbers: Numbers, k: int) -> bool:
 
 def _u_rank(record: RecordSubject, k: int) -> int:
     return rank(hankel(record.u, k)) if k <= record.u.nrows else 0
+
+
+def _y_rank(record: RecordSubject, k: int) -> int:
+    return rank(hankel(record.trajectory.residuals, k)) if k <= record.u.nrows else 0
 
 
 def _w_rank(record: RecordSubject, k: int) -> int:
@@ -186,6 +194,12 @@ def _u_borne(record: RecordSubject, k: int) -> list[Certificate]:
     field, nu = record.u.field, record.u.ncols
     system = ResidualSystem(Matrix.zero(field, 0, 0), Matrix.zero(field, 0, nu), Matrix.zero(field, nu, 0), Matrix.identity(field, nu))
     return [make.data_rank("residual-hankel", system, Matrix.zero(field, 0, 1), record.u, k)]
+
+
+def _y_borne(record: RecordSubject, k: int) -> list[Certificate]:
+    if k > record.u.nrows:
+        return []
+    return [make.data_rank("residual-hankel", record.inputs.system, record.x0, record.u, k)]
 
 
 def _w_borne(record: RecordSubject, k: int) -> list[Certificate]:
@@ -214,6 +228,15 @@ _LISTED = (
         _u_rank,
         _from_data(INPUT),
         _u_borne,
+        windowed=True,
+    ),
+    Quantity(
+        "y_rank",
+        Kind.INTEGER,
+        "the rank of the Hankel matrix of y with s block rows; 0 beyond N",
+        _y_rank,
+        _from_data(OUTPUT),
+        _y_borne,
         windowed=True,
     ),
     Quantity(

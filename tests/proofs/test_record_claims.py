@@ -69,6 +69,7 @@ def by_definition(record: Record) -> dict[str, Any]:
         "N": samples,
         "nu": system.nu,
         "u_rank": u_rank,
+        "y_rank": ranks(outputs, system.p),
         "w_rank": ranks(both, system.nu + system.p),
         "x_rank": [rank(behaviours.excitation(slow, x0, u, k)) if k <= samples else 0 for k in range(samples + 3)],
         "exciting": [k <= samples and u_rank[k] == system.nu * k for k in range(samples + 3)],
