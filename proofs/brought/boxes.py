@@ -21,6 +21,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import permutations, product
+from math import factorial
 from typing import Any
 
 import numpy as np
@@ -32,7 +33,7 @@ from ..quantities.batches import Batch
 from ..quantities.blocks import Number, Scalars, height
 from ..quantities.elimination import Integers
 
-AT_ONCE = 60_000
+AT_ONCE, MOST_CHANGES = 60_000, 50_000
 Sizes = tuple[int, ...]
 LARGEST_TABLE = 2 * 10**6  # rows of some fourteen numbers of eight bytes: a few hundred megabytes while they are sorted out
 
@@ -222,6 +223,8 @@ def _powers(base: int, length: int) -> Integers:
 def _changes(size: int, signed: bool) -> list[Integers]:
     """Return the matrices that renumber and, where `signed`, change signs; the second half are the negatives of the first."""
     unit = np.eye(size, dtype=np.int64)
+    if factorial(size) * 2**size > MOST_CHANGES:  # then every system is looked at, if they fit a table at all
+        return [unit]
     orders = [unit[list(order)] for order in permutations(range(size))]
     if not signed or not size:
         return orders

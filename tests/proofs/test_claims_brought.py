@@ -446,7 +446,7 @@ def test_a_statement_of_the_field_gets_its_verdict(name: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", list(LITERATURE))
 def test_a_statement_of_the_field_gets_its_verdict_in_its_whole_box(name: str) -> None:
-    """What is known to be false is refuted by the smallest case of the box, with certificates, and by one of at most five rows and columns."""
+    """What is known to be false is refuted by the smallest case of the box, with certificates; it has n + m + p of at most 5."""
     (answer,) = deciding.decide(LITERATURE[name], ablation=False, most=10**9, jobs=1, progress=silent)
     assert answer.as_expected and answer.tried.exhausted == (answer.verdict != Answered.REFUTED), answer.title
     if answer.counterexample is not None:

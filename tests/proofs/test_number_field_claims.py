@@ -158,7 +158,7 @@ def systems_of(text: str, sizes: tuple[int, int, int], count: int, entries: list
     ("text", "sizes"), [(ROOT, (2, 1, 1)), (EISENSTEIN, (1, 1, 2)), (CUBIC, (1, 2, 1)), (NONE, (0, 1, 2)), (NONE, (2, 1, 0))]
 )
 def test_every_quantity_over_a_number_field_is_what_slow_ways_find(text: str, sizes: tuple[int, int, int]) -> None:
-    batch, rows = systems_of(text, sizes, examples(15))
+    batch, rows = systems_of(text, sizes, examples(15) // 2)
     every = np.array(rows)
     tables = {name: batch.column(name, every) for name in FAMILIES if name not in (CHARACTERISTIC, MINORS)}
     for k, row in enumerate(rows):
@@ -210,6 +210,7 @@ def test_a_counterexample_over_a_number_field_is_certified_and_explained() -> No
     assert value.startswith("no value: got stable over") and "one of its real roots" in value
 
 
+@pytest.mark.slow
 def test_bounds_are_sought_over_a_number_field_too() -> None:
     found = fs.conjecture("lag", by=["n"], field=NONE, box={"n": [1, 1], "m": [1, 1], "p": [1, 1], "total": 3})
     assert "lag <= n" in [one.text for one in found.above] and found.tried.sums > 0 and found.tried.drawn > 0
