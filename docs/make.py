@@ -127,8 +127,8 @@ def _quantities_table(listed: Mapping[str, Quantity]) -> list[str]:
             "no: computed" if one.certificates is None else "where true" if name == "stable" else "read off" if name in READ_OFF else "yes"
         )
         meaning = one.meaning.replace("|", r"\|")
-        kind = "a function of s" if one.windowed else str(one.kind)
-        rows.append(f"| `{name}{'(s)' if one.windowed else ''}` | {kind}{', over Q' if one.only_over_Q else ''} | {meaning} | {borne} |")
+        kind = ("a function of s" if one.windowed else str(one.kind)) + (", where there is a circle" if one.circle else "")
+        rows.append(f"| `{name}{'(s)' if one.windowed else ''}` | {kind} | {meaning} | {borne} |")
     return rows
 
 

@@ -3,7 +3,6 @@
     Box           bounds on n, m, p and their sum, the entries, and the field
     Stretch       systems of equal sizes and equal height, some of them, which follow each other in the order
     stretches     all of a box, the smallest sizes first
-    height        the largest numerator or denominator of a number
 
 The order is by n + m + p, then n, m, p, then the largest numerator or denominator of the entries, then by the entries of A, F, C, G, by
 rows, -1 before 0 before 1. Over GF(q) the entries are the residues between -q/2 and q/2, in the order of the integers.
@@ -22,37 +21,47 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import permutations, product
-from math import lcm
+from math import factorial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...exact.algebra.fields import QQ, Field, NumberField, PrimeField
 from ..language.vocabularies import SYSTEM
 from ..quantities.batches import Batch
+from ..quantities.blocks import Number, Scalars, height
 from ..quantities.elimination import Integers
 
-AT_ONCE = 60_000
+AT_ONCE, MOST_CHANGES = 60_000, 50_000
 Sizes = tuple[int, ...]
 LARGEST_TABLE = 2 * 10**6  # rows of some fourteen numbers of eight bytes: a few hundred megabytes while they are sorted out
 
 
 @dataclass(frozen=True)
 class Box:
-    """All systems with n, m, p in these ranges (first, last), n + m + p <= total, entries among these numbers, over Q or GF(prime)."""
+    """All systems with n, m, p in these ranges (first, last), n + m + p <= total, entries among these numbers, over Q, GF(prime) or a
+    number field.
+    """
 
     n: tuple[int, int] = (1, 3)
     m: tuple[int, int] = (1, 2)
     p: tuple[int, int] = (1, 3)
     total: int = 5
-    entries: tuple[Fraction, ...] = (Fraction(-1), Fraction(0), Fraction(1))
+    entries: tuple[Any, ...] = (Fraction(-1), Fraction(0), Fraction(1))
     prime: int | None = None
+    number_field: NumberField | None = None
 
     def __str__(self) -> str:
         ranges = ", ".join(f"{low} <= {name} <= {high}" for name, (low, high) in (("n", self.n), ("m", self.m), ("p", self.p)))
         listed = ", ".join(map(str, self.entries))
-        over = "" if self.prime is None else f" modulo {self.prime}"
+        over = f" over {self.number_field}" if self.number_field else "" if self.prime is None else f" modulo {self.prime}"
         return f"{ranges}, n + m + p <= {self.total}, entries in {{{listed}}}{over}"
+
+    @property
+    def field(self) -> Field:
+        """This is the field of the entries."""
+        return self.number_field or (QQ if self.prime is None else PrimeField(self.prime))
 
     @property
     def about(self) -> str:
@@ -95,11 +104,6 @@ class Stretch:
     weights: NDArray[np.int64]
 
 
-def height(x: Fraction) -> int:
-    """Return the larger of numerator and denominator, without sign."""
-    return max(abs(x.numerator), x.denominator)
-
-
 def stretches(box: Box, sizes: tuple[int, ...], *, reduced: bool) -> Iterator[Stretch]:
     """Yield all systems of these sizes in order; where `reduced`, the first of each orbit alone.
 
@@ -118,7 +122,7 @@ def changes(box: Box, sizes: tuple[int, ...], *, reduced: bool) -> tuple[list[In
 
 
 def systems_in_order(
-    box: Box, sizes: tuple[int, ...], entries: list[Fraction], high: NDArray[np.bool_], group: tuple[list[Integers], ...]
+    box: Box, sizes: tuple[int, ...], entries: list[Number], high: NDArray[np.bool_], group: tuple[list[Integers], ...]
 ) -> Iterator[Stretch]:
     """Yield the systems with these entries, of which at least one is `high`, in order; the first of each orbit of the group alone.
 
@@ -129,8 +133,7 @@ def systems_in_order(
     lengths = n * n, n * m + p * n + p * m
     if base ** max(lengths) > LARGEST_TABLE:
         raise OverflowError
-    scale = lcm(*(x.denominator for x in entries))
-    values = np.array([int(x * scale) for x in entries], dtype=np.int64)
+    scalars = Scalars.of(entries, box.number_field)
     states, faults, outputs = group
     both = all((one[-1] == -one[0]).all() for one in group)
     states = states[: len(states) // 2] if both and n else states  # what -T does, T does with the negatives of outputs and faults
@@ -151,15 +154,16 @@ def systems_in_order(
         for i in chosen:
             found, at, fixed = of(stabilizers[i])
             whole = np.concatenate([np.broadcast_to(every_A[i], (len(found), lengths[0])), found], axis=1)
-            keep = np.ones(len(found), dtype=bool) if high.all() else high[_places(whole, base)].any(axis=1)
+            keep = np.ones(len(found), dtype=bool) if high.all() else high[places_of(whole, base)].any(axis=1)
             digits.append(whole[keep])
             places.append(numbers[i] * base ** lengths[1] + at[keep])
             weights.append(whole_group // fixed[keep])
-        table = values[_places(np.concatenate(digits), base)]
+        table = places_of(np.concatenate(digits), base)
         if len(table):
             parts = np.split(table, np.cumsum([n * n, n * m, p * n]), axis=1)
-            A, F, C, G = (part.reshape(len(table), *shape) for part, shape in zip(parts, ((n, n), (n, m), (p, n), (p, m)), strict=True))
-            yield Stretch(Batch(A, F, C, G, box.prime, scale), np.concatenate(places), np.concatenate(weights))
+            A, F, C, G = (scalars.matrices(part, *shape) for part, shape in zip(parts, ((n, n), (n, m), (p, n), (p, m)), strict=True))
+            batch = Batch(A, F, C, G, box.prime, scalars.scale, box.number_field)
+            yield Stretch(batch, np.concatenate(places), np.concatenate(weights))
 
 
 @dataclass
@@ -207,7 +211,8 @@ def digits_of(base: int, length: int) -> Integers:
     return np.stack(columns, axis=1) if columns else np.zeros((1, 0), dtype=np.int64)
 
 
-def _places(digits: Integers, base: int) -> Integers:
+def places_of(digits: Integers, base: int) -> Integers:
+    """Return which number of the box each digit stands for."""
     return (digits + (base - 1)) // 2
 
 
@@ -218,6 +223,8 @@ def _powers(base: int, length: int) -> Integers:
 def _changes(size: int, signed: bool) -> list[Integers]:
     """Return the matrices that renumber and, where `signed`, change signs; the second half are the negatives of the first."""
     unit = np.eye(size, dtype=np.int64)
+    if factorial(size) * 2**size > MOST_CHANGES:  # then every system is looked at, if they fit a table at all
+        return [unit]
     orders = [unit[list(order)] for order in permutations(range(size))]
     if not signed or not size:
         return orders

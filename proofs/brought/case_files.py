@@ -1,15 +1,18 @@
 """What a claim is about, read from the document of a file.
 
 read_case     a system as exact files hold it, or what else the FORMS are
+at_root       the case over a number field with a chosen root
 fitting       the case as one of the kind that a claim is about
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from ...base.errors import InvalidInput, shorten
+from ...exact.algebra.embeddings import RealField
 from ...exact.algebra.matrices import Matrix
 from ...exact.algebra.validation import natural
 from ...exact.structure.fault_columns import fault_space_dimension
@@ -84,6 +87,27 @@ def _record(document: Mapping[str, Any]) -> Record:
         raise InvalidInput(f"x0: got {shorten(x0)}, expected a list of {system.n} numbers")
     signal = Matrix.of(u, system.field, shape=(len(u), system.nu), where="u")
     return Record(system, signal, Matrix.of([[x] for x in x0], system.field, shape=(system.n, 1), where="x0"))
+
+
+def at_root(case: Case, field: RealField) -> Case:
+    """Return the case over this field, where it is over the same one without a root; else as it is."""
+
+    def moved(matrix: Matrix) -> Matrix:
+        return Matrix(field, matrix.nrows, matrix.ncols, matrix.flint)
+
+    def system(one: ResidualSystem) -> ResidualSystem:
+        return ResidualSystem(*(moved(getattr(one, name)) for name in "AFCG"))
+
+    if isinstance(case, ResidualSystem):
+        return system(case) if case.field == field.without_root else case
+    if isinstance(case, Pair):
+        return replace(case, first=system(case.first), second=system(case.second)) if case.first.field == field.without_root else case
+    if case.system.field != field.without_root:
+        return case
+    if isinstance(case, Choice):
+        return Choice(system(case.system), moved(case.P))
+    driven = case.system
+    return Record(FaultySystem(system(driven.residual), moved(driven.B), moved(driven.D)), moved(case.u), moved(case.x0))
 
 
 def fitting(case: Case, about: str) -> Case:

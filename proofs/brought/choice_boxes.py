@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import product
 from math import lcm
 
@@ -23,9 +22,10 @@ from ...exact.structure.fault_columns import FaultSpace, fault_space
 from ...exact.structure.kernel_rows import kernel_representation
 from ..language.vocabularies import CHOICE
 from ..quantities.batches import Batch
+from ..quantities.blocks import Number, Scalars, height
 from ..quantities.choices import Choices
 from ..quantities.elimination import Integers
-from .boxes import AT_ONCE, LARGEST_TABLE, Box, Sizes, Stretch, changes, digits_of, first_of_orbits, height, systems_in_order
+from .boxes import AT_ONCE, LARGEST_TABLE, Box, Sizes, Stretch, changes, digits_of, first_of_orbits, places_of, systems_in_order
 
 SYSTEMS_AT_ONCE = 2000
 
@@ -79,11 +79,11 @@ class ChoiceBox(Box):
                 first, weights = stretch.batch.part(some), stretch.weights[some]
                 spaces = [fault_space(kernel_representation(first.system(i))) for i in range(len(first))]
                 for one in {space.dimension for space in spaces} - set(tables):
-                    tables[one] = _tables(entries, one, k, columns)
+                    tables[one] = _tables(self, entries, one, k, columns)
                 yield from _kept(_portions(first, spaces, tables, k), weights, entries, level)
 
 
-def _kept(portions: Iterator[tuple[Choices, Integers]], weights: Integers, entries: list[Fraction], level: int) -> Iterator[Stretch]:
+def _kept(portions: Iterator[tuple[Choices, Integers]], weights: Integers, entries: list[Number], level: int) -> Iterator[Stretch]:
     """Yield those with an entry of this height."""
     for chosen, times in portions:
         keep = _high(chosen, entries, level)
@@ -92,16 +92,14 @@ def _kept(portions: Iterator[tuple[Choices, Integers]], weights: Integers, entri
             yield Stretch(kept, np.arange(len(kept)), (weights[chosen.firsts] * times)[keep])
 
 
-def _tables(entries: list[Fraction], n_z: int, k: int, columns: list[Integers]) -> tuple[Integers, Integers]:
+def _tables(box: ChoiceBox, entries: list[Number], n_z: int, k: int, columns: list[Integers]) -> tuple[Integers, Integers]:
     """Return all P (n_z x k) in order, times the common denominator of the entries, with the number of those that each stands for."""
     base, length = len(entries), n_z * k
     if base**length > LARGEST_TABLE:
         raise OverflowError
     powers = np.array([base**i for i in reversed(range(length))], dtype=np.int64).reshape(n_z, k)
     found, _, fixed = first_of_orbits(digits_of(base, length), [(powers - powers @ V).ravel() for V in columns])
-    scale = lcm(*(x.denominator for x in entries))
-    values = np.array([int(x * scale) for x in entries], dtype=np.int64)
-    return values[(found + (base - 1)) // 2].reshape(len(found), n_z, k), len(columns) // fixed
+    return Scalars.of(entries, box.number_field).matrices(places_of(found, base), n_z, k), len(columns) // fixed
 
 
 def _portions(
@@ -121,42 +119,39 @@ def _portions(
 def _choices(
     first: Batch, spaces: list[FaultSpace], tables: dict[int, tuple[Integers, Integers]], portion: list[int], k: int
 ) -> tuple[Choices, Integers]:
-    n, p = first.n, first.p
+    n, width = first.A.shape[1], first.A.shape[1] + first.C.shape[1]
     firsts, P, scales, F, G, times = [], [], [], [], [], []
     for i in portion:
         listed, weights = tables[spaces[i].dimension]
         basis, scale = _integers(spaces[i])
-        columns = basis.T @ listed
+        columns = basis @ listed
         if first.prime is not None:
             columns %= first.prime
         firsts.append(np.full(len(listed), i))
-        P.append(np.pad(listed, ((0, 0), (0, n + p - listed.shape[1]), (0, 0))))
+        P.append(np.pad(listed, ((0, 0), (0, width - listed.shape[1]), (0, 0))))
         scales.append(np.full(len(listed), scale))
         F.append(columns[:, :n])
         G.append(columns[:, n:])
         times.append(weights)
     which = np.concatenate(firsts)
-    second = Batch(first.A[which], np.concatenate(F), first.C[which], np.concatenate(G), first.prime, first.denominator)
+    second = Batch(first.A[which], np.concatenate(F), first.C[which], np.concatenate(G), first.prime, first.denominator, first.number_field)
     heights = np.array([space.dimension for space in spaces])[which]
     return Choices(first, which, second, np.concatenate(P), heights, np.concatenate(scales)), np.concatenate(times)
 
 
 def _integers(space: FaultSpace) -> tuple[Integers, int]:
-    """Return the rows of the reduced basis times their common denominator, and that."""
-    rows = space.basis.elements()
+    """Return the reduced basis as columns, times their common denominator, and that; over Q(a) in blocks."""
+    table = space.basis.transposed().flint  # a Matrix over Q(a) is that of its blocks
+    shape, numbers = (table.nrows(), table.ncols()), table.entries()
     if isinstance(space.system.field, PrimeField):
-        return np.array([[int(x) for x in row] for row in rows], dtype=np.int64).reshape(space.basis.shape), 1
-    scale = lcm(*(int(x.q) for row in rows for x in row))
-    return np.array([[int(x * scale) for x in row] for row in rows], dtype=np.int64).reshape(space.basis.shape), scale
+        return np.array([int(x) for x in numbers], dtype=np.int64).reshape(shape), 1
+    scale = lcm(*(int(x.q) for x in numbers))
+    return np.array([int(x * scale) for x in numbers], dtype=np.int64).reshape(shape), scale
 
 
-def _high(choices: Choices, entries: list[Fraction], level: int) -> NDArray[np.bool_]:
+def _high(choices: Choices, entries: list[Number], level: int) -> NDArray[np.bool_]:
     """Return which choices have an entry of this height in the system or in P; the others came with a lower one."""
     if all(height(x) == level for x in entries):
         return np.ones(len(choices), dtype=bool)
-    scale = lcm(*(x.denominator for x in entries))
-    high = [int(x * scale) for x in entries if height(x) == level]
-    found: NDArray[np.bool_] = np.asarray(np.isin(choices.P, high).any(axis=(1, 2)))
-    for name in "AFCG":
-        found |= np.isin(choices.matrix("", name), high).any(axis=(1, 2))
-    return found
+    scalars = Scalars.of(entries, choices.number_field)
+    return scalars.high([choices.P, *(choices.matrix("", name) for name in "AFCG")], level)

@@ -14,13 +14,14 @@ from typing import Any
 from ...base.errors import InvalidInput, shorten
 from ...base.progress import Progress, silent
 from ...base.threads import one_thread
+from ...exact.algebra.embeddings import RealField
 from ...exact.system.systems import System
 from ..language.evaluating import Asked, Exactly, evaluate, exactly, least_deciding
 from ..language.nodes import Node, Undefined, variables
 from ..language.vocabularies import SYSTEM
 from ..quantities.cases import Case
 from .answers import ClaimAnswers
-from .case_files import fitting
+from .case_files import at_root, fitting
 from .claims import Claim, make_claim
 from .deciding import decide
 from .kept import Kept, Sharing
@@ -93,9 +94,14 @@ def decide_claims(
 def explain(given: Claim, case: System | Case) -> Iterator[tuple[int, str, str]]:
     """Yield (level, text, value) for each part of the hypotheses and the conclusion that has a value of its own on a system, or a pair.
 
+    A system over a number field, of which files hold no root, is taken with the first root of it that the claim names in its fields.
     Raises InvalidInput where it is no case of what the claim is about.
     """
-    knows = exactly(fitting(case.residual if isinstance(case, System) else case, given.about))
+    found = fitting(case.residual if isinstance(case, System) else case, given.about)
+    for box in given.boxes.values():
+        if isinstance(box.field, RealField):
+            found = at_root(found, box.field)
+    knows = exactly(found)
     for node in given.nodes:
         yield from _explained(node, knows, {}, 0)
 

@@ -4,28 +4,26 @@ Claim          a claim that has been read
 Hypothesis     one of its hypotheses, with the label that it is shown by
 Answered       the verdicts: REFUTED, NOT REFUTED, VACUOUS, PROVED
 make_claim     a Claim from the keys of a file, each checked; KEYS are these
-field_name     how a field is written: Q, GF(2)
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from enum import StrEnum
-from fractions import Fraction
 from typing import Any
 
-from flint import fmpz
-
 from ...base.errors import InvalidInput, shorten
+from ...exact.algebra.embeddings import one_modulus
+from ...exact.algebra.fields import QQ, Field, NumberField, PrimeField
 from ..language.grammar import read
 from ..language.nodes import Node, reads, walk
 from ..language.vocabularies import ABOUT_A_SYSTEM, CHOICE, ONE_A_AND_C, PAIR, RECORD, SYSTEM, VOCABULARIES, Vocabulary
 from ..quantities.registry import Kind, quantities
 from .boxes import Box
 from .choice_boxes import ChoiceBox
+from .fields import read_entries, read_field, usual_entries
 from .pair_boxes import PairBox
 from .record_boxes import RecordBox
 
@@ -40,7 +38,15 @@ USUAL: dict[str, Box] = {
     CHOICE: ChoiceBox(n=(1, 2), total=4),
     RECORD: RecordBox(n=(1, 2), m=(0, 0), p=(1, 1), total=3),
 }  # the boxes where none is stated
-LARGEST_SIZE, LARGEST_TOTAL, LARGEST_PRIME, MOST_ENTRIES = 8, 16, 97, 32
+_ONE = PairBox(n=(1, 1), m=(1, 1), p=(1, 1), total=3)
+USUAL_OVER_QA: dict[str, Box] = {
+    SYSTEM: Box(total=4),
+    PAIR: _ONE,
+    ONE_A_AND_C: replace(_ONE, one_A_and_C=True),
+    CHOICE: ChoiceBox(n=(1, 1), m=(1, 1), p=(1, 2), total=3, k=(1, 1)),
+    RECORD: RecordBox(n=(1, 1), m=(0, 0), p=(1, 1), total=2, N=(1, 3)),
+}  # the same over number fields, where there are five entries
+LARGEST_SIZE, LARGEST_TOTAL = 8, 16
 LONGEST_TEXT, MOST_HYPOTHESES, MOST_FIELDS = 2000, 16, 8
 
 
@@ -80,11 +86,6 @@ class Claim:
         return (*(one.that for one in self.hypotheses), self.conclusion)
 
 
-def field_name(prime: int | None) -> str:
-    """Return the name of the field."""
-    return "Q" if prime is None else f"GF({prime})"
-
-
 def nearest(name: str, known: tuple[str, ...]) -> str:
     """Return words that name the nearest one, or all of them."""
     near = get_close_matches(name, known, 1, 0.5)
@@ -101,14 +102,14 @@ def make_claim(id: str, given: Mapping[str, Any]) -> Claim:
     about = _about(given.get("about", SYSTEM))
     hypotheses = tuple(_hypotheses(given.get("hypotheses", []), VOCABULARIES[about]))
     conclusion = expression(given["conclusion"], "conclusion", vocabulary=VOCABULARIES[about])
-    primes = _fields(given.get("fields", ["Q"]))
+    fields = _fields(given.get("fields", ["Q"]))
     box = given.get("box", {})
     if not isinstance(box, Mapping):
         raise InvalidInput(f"box: got {shorten(box)}, expected a table such as {{n = [1, 3], total = 5}}")
-    boxes = {field_name(prime): make_box(box, prime, about) for prime in primes}
+    boxes = {str(field): make_box(box, field, about) for field in fields}
     nodes = (*(one.that for one in hypotheses), conclusion)
-    if any(prime is not None for prime in primes):
-        _refuse_the_circle(nodes)
+    for field in fields:
+        _check_the_circle(nodes, field)
     expected = _expected(given["expected"], tuple(boxes)) if "expected" in given else {}
     return Claim(id, _text(given, "statement"), _text(given, "source"), about, hypotheses, conclusion, boxes, expected)
 
@@ -126,9 +127,10 @@ def expression(given: object, where: str, kind: Kind = Kind.WORD, vocabulary: Vo
         raise InvalidInput(f"{where}: {error}") from None
 
 
-def make_box(given: Mapping[str, Any], prime: int | None, about: str = SYSTEM) -> Box:
-    """Return the box with these bounds over Q or GF(prime). Raises InvalidInput that begins with `box`."""
-    plain = USUAL[about]
+def make_box(given: Mapping[str, Any], field: Field = QQ, about: str = SYSTEM) -> Box:
+    """Return the box with these bounds over a field. Raises InvalidInput that begins with `box`."""
+    over = field if isinstance(field, NumberField) else None
+    plain = USUAL[about] if over is None else USUAL_OVER_QA[about]
     own = OWN_KEYS.get(about, ())
     known = (*BOX_KEYS, *own)
     for key in given:
@@ -138,8 +140,9 @@ def make_box(given: Mapping[str, Any], prime: int | None, about: str = SYSTEM) -
     total = given.get("total", plain.total)
     if type(total) is not int or not 0 <= total <= LARGEST_TOTAL:
         raise InvalidInput(f"box.total: got {shorten(total)}, expected an integer from 0 to {LARGEST_TOTAL}")
-    entries = _entries(given["entries"], prime) if "entries" in given else _usual(prime)
-    box = replace(plain, **ranges, total=total, entries=entries, prime=prime)
+    entries = read_entries(given["entries"], field) if "entries" in given else usual_entries(field)
+    prime = field.p if isinstance(field, PrimeField) else None
+    box = replace(plain, **ranges, total=total, entries=entries, prime=prime, number_field=over)
     if not box.sizes():
         least = sum(ranges[name][0] for name in ("n", "m", "p"))
         raise InvalidInput(f"box: got an empty box, n + m + p is at least {least} and at most total = {total}")
@@ -170,22 +173,10 @@ def _hypotheses(given: object, vocabulary: Vocabulary) -> list[Hypothesis]:
     return found
 
 
-def _fields(given: object) -> list[int | None]:
+def _fields(given: object) -> list[Field]:
     if not isinstance(given, (list, tuple)) or not 1 <= len(given) <= MOST_FIELDS or len(set(map(str, given))) < len(given):
         raise InvalidInput(f'fields: got {shorten(given)}, expected a list such as ["Q", "GF(2)"], none twice')
-    return [_prime(one) for one in given]
-
-
-def _prime(given: object) -> int | None:
-    if given == "Q":
-        return None
-    found = re.fullmatch(r"GF\(([0-9]{1,9})\)", str(given))
-    if found is None:
-        raise InvalidInput(f"fields: got {shorten(given)}, expected Q or GF(q); number fields are not searched yet")
-    prime = int(found[1])
-    if prime > LARGEST_PRIME or not fmpz(prime).is_prime():
-        raise InvalidInput(f"fields: got {given}, expected GF(q) with a prime q up to {LARGEST_PRIME}")
-    return prime
+    return [read_field(one) for one in given]
 
 
 def _range(given: object, name: str) -> tuple[int, int]:
@@ -194,32 +185,6 @@ def _range(given: object, name: str) -> tuple[int, int]:
         if 0 <= low <= high <= LARGEST_SIZE:
             return low, high
     raise InvalidInput(f"box.{name}: got {shorten(given)}, expected [first, last] with 0 <= first <= last <= {LARGEST_SIZE}")
-
-
-def _usual(prime: int | None) -> tuple[Fraction, ...]:
-    """Return -1, 0, 1, or all residues between -q/2 and q/2; over GF(2) these are 0 and 1."""
-    if prime is None:
-        return Box().entries
-    return tuple(Fraction(x) for x in range(-((prime - 1) // 2), prime // 2 + 1))
-
-
-def _entries(given: object, prime: int | None) -> tuple[Fraction, ...]:
-    wanted = f'expected a list of at most {MOST_ENTRIES} integers or strings such as "-1/2"'
-    if not isinstance(given, (list, tuple)) or not 1 <= len(given) <= MOST_ENTRIES:
-        raise InvalidInput(f"box.entries: got {shorten(given)}, {wanted}")
-    found = set()
-    for x in given:
-        rational = isinstance(x, str) and re.fullmatch(r"-?[0-9]{1,6}(/[1-9][0-9]{0,5})?", x)
-        if not rational and (type(x) is not int or abs(x) >= 10**6):
-            raise InvalidInput(f"box.entries: got {shorten(x)}, {wanted}")
-        value = Fraction(x)
-        if prime is not None:
-            if value.denominator % prime == 0:
-                raise InvalidInput(f"box.entries: got {x} over GF({prime}), expected denominators that {prime} does not divide")
-            residue = value.numerator * pow(value.denominator, -1, prime) % prime
-            value = Fraction(residue - prime if residue > prime // 2 else residue)
-        found.add(value)
-    return tuple(sorted(found))
 
 
 def _expected(given: object, fields: tuple[str, ...]) -> dict[str, Answered]:
@@ -238,13 +203,17 @@ def _expected(given: object, fields: tuple[str, ...]) -> dict[str, Answered]:
     return told
 
 
-def _refuse_the_circle(nodes: tuple[Node, ...]) -> None:
-    for _, name in sorted(reads(*nodes)):
-        if name in quantities() and quantities()[name].only_over_Q:
-            raise InvalidInput(f"fields: got a claim that reads {name} and a finite field, which has no unit circle; expected Q alone")
-    for node in nodes:
-        if any(one.op == "schur_stable" for one in walk(node)):
-            raise InvalidInput("fields: got a claim that reads schur_stable and a finite field, which has no unit circle; expected Q alone")
+def _check_the_circle(nodes: tuple[Node, ...], field: Field) -> None:
+    """Raise InvalidInput where the claim asks what lies inside the unit circle, and that has no one answer over the field."""
+    if one_modulus(field):
+        return
+    read_ones = [name for _, name in sorted(reads(*nodes)) if name in quantities() and quantities()[name].circle]
+    read_ones += ["schur_stable" for node in nodes if any(one.op == "schur_stable" for one in walk(node))]
+    if read_ones:
+        why = "a finite field, which has no unit circle; expected Q, or Q(a) with a root"
+        if isinstance(field, NumberField):
+            why = f"{field}, no root of which is chosen; expected a real one, as in Q(a) with a^2 - 2 = 0 and 1 < a < 2"
+        raise InvalidInput(f"fields: got a claim that reads {read_ones[0]} and {why}")
 
 
 def _text(given: Mapping[str, Any], key: str) -> str:

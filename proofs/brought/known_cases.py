@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations
 
-from ...exact.algebra.fields import QQ, Field, PrimeField
+from ...exact.algebra.fields import Field
 from ...exact.algebra.matrices import Matrix
 from ...exact.pairs.witnesses import BadPair, bad_pair
 from ...exact.structure.fault_columns import fault_space, fault_space_dimension, with_pair
@@ -47,12 +47,12 @@ class KnownCase:
 def known_cases(box: Box) -> tuple[KnownCase, ...]:
     """Return them over the field of the box."""
     if box.about == SYSTEM:
-        return tuple(KnownCase(one.origin, one.subject.system, one.subject) for one in known_systems(box.prime))
+        return tuple(KnownCase(one.origin, one.subject.system, one.subject) for one in known_systems(box.field))
     if box.about == CHOICE:
-        return _choices(box.prime)
+        return _choices(box.field)
     if box.about == RECORD:
-        return _records(box.prime)
-    return _pairs(box.prime, box.about == ONE_A_AND_C)
+        return _records(box.field)
+    return _pairs(box.field, box.about == ONE_A_AND_C)
 
 
 def smaller(case: Case, fails: Callable[[Case], bool]) -> Case:
@@ -73,14 +73,14 @@ def _smaller(case: Case) -> Iterator[Case]:
 
 
 @lru_cache(maxsize=4)
-def _records(prime: int | None) -> tuple[KnownCase, ...]:
+def _records(field: Field) -> tuple[KnownCase, ...]:
     """Return known systems with their faults as inputs, some under a signal that excites, some under one that does not."""
     found = []
-    for known in known_systems(prime):
+    for known in known_systems(field):
         system = known.subject.system
         if system.n > LARGEST_STATES:
             continue
-        rng, field = random.Random(str(system)), system.field
+        rng = random.Random(str(system))
         without = system.with_faults(Matrix.zero(field, system.n, 0), Matrix.zero(field, system.p, 0))
         driven, subject = FaultySystem(without, system.F, system.G), Subject(without)
         for length in (rng.randint(1, 6), (system.m + 1) * (system.n + 2) + rng.randint(0, 3)):
@@ -123,9 +123,9 @@ def _record_steps(record: Record) -> Iterator[Record]:
 
 
 @lru_cache(maxsize=4)
-def _choices(prime: int | None) -> tuple[KnownCase, ...]:
+def _choices(field: Field) -> tuple[KnownCase, ...]:
     found = []
-    for known in known_systems(prime):
+    for known in known_systems(field):
         system = known.subject.system
         if system.n > LARGEST_STATES:
             continue
@@ -156,9 +156,9 @@ def _choice_steps(choice: Choice) -> Iterator[Choice]:
 
 
 @lru_cache(maxsize=8)
-def _pairs(prime: int | None, one_A_and_C: bool) -> tuple[KnownCase, ...]:
+def _pairs(field: Field, one_A_and_C: bool) -> tuple[KnownCase, ...]:
     found = []
-    for origin, first, second in _listed(QQ if prime is None else PrimeField(prime)):
+    for origin, first, second in _listed(field):
         if not one_A_and_C or (first.system.A, first.system.C) == (second.system.A, second.system.C):
             case = Pair(first.system, second.system, one_A_and_C)
             found.append(KnownCase(origin, case, PairSubject(first, second)))
@@ -170,7 +170,7 @@ def _listed(field: Field) -> Iterator[tuple[str, Subject, Subject]]:
         idle, driven = (Subject(over(field, one)) for one in shift_registers(n))
         yield CORPUS, idle, driven
         yield CORPUS, driven, idle
-    for known in known_systems(None if field == QQ else field.characteristic):
+    for known in known_systems(field):
         system = known.subject.system
         if system.n > LARGEST_STATES:
             continue

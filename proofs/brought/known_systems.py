@@ -17,14 +17,14 @@ from fractions import Fraction
 from functools import lru_cache
 from itertools import islice, product
 
-from ...exact.algebra.fields import QQ, Field, PrimeField, Rationals
+from ...exact.algebra.fields import QQ, Field, Rationals
 from ...exact.algebra.matrices import Matrix
 from ...exact.system.systems import ResidualSystem
 from ..adversary.structure_families import free_family, hidden_family, idle_family, rank_deficient_family, rank_one_family, system_of
 from ..evidence.attacks import Family
 from ..evidence.families import adversarial, random_systems
+from ..quantities.blocks import height
 from ..quantities.registry import Subject
-from .boxes import height
 
 RANDOM, DRAWN, SEED = 180, 6, 1
 CORPUS, ADVERSARY = "corpus", "adversary"
@@ -39,11 +39,10 @@ class KnownSystem:
 
 
 @lru_cache(maxsize=4)
-def known_systems(prime: int | None) -> tuple[KnownSystem, ...]:
-    """Return them over Q or GF(prime), where integers are taken modulo the prime; each keeps what is found out about it."""
-    field: Field = QQ if prime is None else PrimeField(prime)
+def known_systems(field: Field) -> tuple[KnownSystem, ...]:
+    """Return them over a field, over GF(q) integers modulo q; each keeps what is found out about it."""
     corpus = [system for _, system in adversarial()] + list(islice(random_systems(QQ, RANDOM, seed=SEED), RANDOM))
-    if prime is not None:
+    if field != QQ:
         corpus = [system for _, system in adversarial()] + list(islice(random_systems(field, RANDOM, seed=SEED), RANDOM))
     listed = [(CORPUS, one) for one in corpus] + [(ADVERSARY, one) for one in _drawn()]
     return tuple(KnownSystem(origin, Subject(over(field, one))) for origin, one in listed if _moves(field, one))

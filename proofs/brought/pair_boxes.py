@@ -13,18 +13,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import product
-from math import lcm
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..language.vocabularies import ONE_A_AND_C, PAIR
 from ..quantities.batches import Batch
+from ..quantities.blocks import Number, Scalars, height
 from ..quantities.elimination import Integers
 from ..quantities.pairs import Pairs
-from .boxes import AT_ONCE, LARGEST_TABLE, Box, Sizes, Stretch, changes, digits_of, first_of_orbits, height, systems_in_order
+from .boxes import AT_ONCE, LARGEST_TABLE, Box, Sizes, Stretch, changes, digits_of, first_of_orbits, places_of, systems_in_order
 
 
 @dataclass(frozen=True)
@@ -81,27 +80,26 @@ class PairBox(Box):
         first: Batch,
         weights: Integers,
         sizes: Sizes,
-        entries: list[Fraction],
+        entries: list[Number],
         seconds: tuple[Batch, Integers] | None,
         reduced: bool,
     ) -> Iterator[tuple[Pairs, Integers]]:
         """Yield pairs of each of the first systems with every second one, with the numbers of those that they stand for."""
-        n, m, p = sizes[3:]
-        columns, times = (np.zeros((0, 0), dtype=np.int64), seconds[1]) if seconds else fault_columns(self, (n, m, p), entries, reduced)
+        columns = fault_columns(self, sizes[3:], entries, reduced) if seconds is None else None
+        times = seconds[1] if seconds else columns.times if columns else np.zeros(0, dtype=np.int64)
         per = len(times)
         for start in range(0, len(first) * per, AT_ONCE):
             places = np.arange(start, min(start + AT_ONCE, len(first) * per))
             firsts, which = places // per, places % per
             if seconds:
                 yield Pairs(first, seconds[0], firsts, which), weights[firsts] * times[which]
-                continue
-            chosen = columns[which]
-            F, G = chosen[:, : n * m].reshape(len(chosen), n, m), chosen[:, n * m :].reshape(len(chosen), p, m)
-            second = Batch(first.A[firsts], F, first.C[firsts], G, first.prime, first.denominator)
-            yield Pairs(first, second, firsts, np.arange(len(places)), True), weights[firsts] * times[which]
+            if columns:
+                A, C = first.A[firsts], first.C[firsts]
+                second = Batch(A, columns.F[which], C, columns.G[which], first.prime, first.denominator, first.number_field)
+                yield Pairs(first, second, firsts, np.arange(len(places)), True), weights[firsts] * times[which]
 
 
-def _seconds(box: PairBox, sizes: Sizes, entries: list[Fraction], reduced: bool) -> tuple[Batch, Integers]:
+def _seconds(box: PairBox, sizes: Sizes, entries: list[Number], reduced: bool) -> tuple[Batch, Integers]:
     """Return the second systems in order, with the number of those that each stands for. Raises OverflowError where they fit no table."""
     states, faults, outputs = changes(box, sizes, reduced=reduced)
     group = states, faults, outputs[:1]
@@ -114,11 +112,20 @@ def _seconds(box: PairBox, sizes: Sizes, entries: list[Fraction], reduced: bool)
         if held > LARGEST_TABLE:
             raise OverflowError
     A, F, C, G = (np.concatenate([part.matrix("", name) for part in parts]) for name in "AFCG")
-    return Batch(A, F, C, G, box.prime, parts[0].denominator), np.concatenate(weights)
+    return Batch(A, F, C, G, box.prime, parts[0].denominator, box.number_field), np.concatenate(weights)
 
 
-def fault_columns(box: Box, sizes: Sizes, entries: list[Fraction], reduced: bool) -> tuple[Integers, Integers]:
-    """Return all entries of F and G, by rows, in order, with the number of those that each stands for."""
+@dataclass(frozen=True)
+class FaultColumns:
+    """All F (count, n, m) and G (count, p, m) of some sizes, in order, with the number of those that each stands for."""
+
+    F: Integers
+    G: Integers
+    times: Integers
+
+
+def fault_columns(box: Box, sizes: Sizes, entries: list[Number], reduced: bool) -> FaultColumns:
+    """Return the F and G with these entries; where `reduced`, one of those that differ by order and signs of faults."""
     n, m, p = sizes
     base, length = len(entries), (n + p) * m
     if base**length > LARGEST_TABLE:
@@ -127,19 +134,13 @@ def fault_columns(box: Box, sizes: Sizes, entries: list[Fraction], reduced: bool
     F, G = powers[: n * m].reshape(n, m), powers[n * m :].reshape(p, m)
     group = changes(box, sizes, reduced=reduced)[1]
     found, _, fixed = first_of_orbits(digits_of(base, length), [powers - np.concatenate([(F @ V).ravel(), (G @ V).ravel()]) for V in group])
-    scale = lcm(*(x.denominator for x in entries))
-    values = np.array([int(x * scale) for x in entries], dtype=np.int64)
-    return values[(found + (base - 1)) // 2], len(group) // fixed
+    scalars, places = Scalars.of(entries, box.number_field), places_of(found, base)
+    return FaultColumns(scalars.matrices(places[:, : n * m], n, m), scalars.matrices(places[:, n * m :], p, m), len(group) // fixed)
 
 
-def _high(pairs: Pairs, entries: list[Fraction], level: int) -> NDArray[np.bool_]:
+def _high(pairs: Pairs, entries: list[Number], level: int) -> NDArray[np.bool_]:
     """Return which pairs have an entry of this height; the others came with a lower one."""
     if all(height(x) == level for x in entries):
         return np.ones(len(pairs), dtype=bool)
-    scale = lcm(*(x.denominator for x in entries))
-    high = [int(x * scale) for x in entries if height(x) == level]
-    found = np.zeros(len(pairs), dtype=bool)
-    for subject in ("first", "second"):
-        for name in "AFCG":
-            found |= np.isin(pairs.matrix(subject, name), high).any(axis=(1, 2))
-    return found
+    scalars = Scalars.of(entries, pairs.number_field)
+    return scalars.high([pairs.matrix(subject, name) for subject in ("first", "second") for name in "AFCG"], level)

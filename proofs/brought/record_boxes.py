@@ -12,18 +12,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import product
-from math import lcm
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..language.vocabularies import RECORD
 from ..quantities.batches import Batch
+from ..quantities.blocks import Number, Scalars, height
 from ..quantities.elimination import Integers
 from ..quantities.records import Records
-from .boxes import AT_ONCE, LARGEST_TABLE, Box, Sizes, Stretch, changes, digits_of, height, systems_in_order
+from .boxes import AT_ONCE, LARGEST_TABLE, Box, Sizes, Stretch, changes, digits_of, places_of, systems_in_order
 from .pair_boxes import fault_columns
 
 LARGEST_NUMBER = 2**62
@@ -68,47 +67,40 @@ class RecordBox(Box):
     def _level(self, sizes: Sizes, level: int, reduced: bool) -> Iterator[Stretch]:
         entries = [x for x in self.entries if height(x) <= level]
         n, m, p, nu, N = sizes
-        columns, times = fault_columns(self, (n, nu, p), entries, reduced)
-        signals, starts = _values(entries, N * nu), _values(entries, n)
+        driven = fault_columns(self, (n, nu, p), entries, reduced)
+        signals, starts = self._values(entries, N, nu), self._values(entries, n, 1)
         for stretch in systems_in_order(
             self, (n, m, p), entries, np.ones(len(entries), dtype=bool), changes(self, (n, m, p), reduced=reduced)
         ):
             order = np.argsort(stretch.places, kind="stable")
             first, weights = stretch.batch.part(order), stretch.weights[order]
-            shape = len(first), len(columns), len(signals), len(starts)
-            total = len(first) * len(columns) * len(signals) * len(starts)
+            shape = len(first), len(driven.times), len(signals), len(starts)
+            total = len(first) * len(driven.times) * len(signals) * len(starts)
             if total >= LARGEST_NUMBER:
                 raise OverflowError
             for start in range(0, total, AT_ONCE):
                 i, j, a, b = np.unravel_index(np.arange(start, min(start + AT_ONCE, total)), shape)
-                pair, seconds = np.unique(i * len(columns) + j, return_inverse=True)
-                own, given = pair // len(columns), columns[pair % len(columns)]
-                B, D = given[:, : n * nu].reshape(len(pair), n, nu), given[:, n * nu :].reshape(len(pair), p, nu)
-                inputs = Batch(first.A[own], B, first.C[own], D, first.prime, first.denominator)
-                records = Records(first, i, inputs, seconds, signals[a].reshape(len(a), N, nu), starts[b])
+                pair, seconds = np.unique(i * len(driven.times) + j, return_inverse=True)
+                own, given = pair // len(driven.times), pair % len(driven.times)
+                B, D = driven.F[given], driven.G[given]
+                inputs = Batch(first.A[own], B, first.C[own], D, first.prime, first.denominator, first.number_field)
+                records = Records(first, i, inputs, seconds, signals[a], starts[b])
                 keep = _high(records, entries, level)
                 if keep.any():
                     kept = records if keep.all() else records.part(np.flatnonzero(keep))
-                    yield Stretch(kept, np.arange(len(kept)), (weights[i] * times[j])[keep])
+                    yield Stretch(kept, np.arange(len(kept)), (weights[i] * driven.times[j])[keep])
+
+    def _values(self, entries: list[Number], rows: int, columns: int) -> Integers:
+        """Return all matrices of that shape of these entries, times their common denominator, in order."""
+        base = len(entries)
+        if base ** (rows * columns) > LARGEST_TABLE:
+            raise OverflowError
+        return Scalars.of(entries, self.number_field).matrices(places_of(digits_of(base, rows * columns), base), rows, columns)
 
 
-def _values(entries: list[Fraction], length: int) -> Integers:
-    """Return all vectors of that length of these entries, times their common denominator, in order."""
-    base = len(entries)
-    if base**length > LARGEST_TABLE:
-        raise OverflowError
-    scale = lcm(*(x.denominator for x in entries))
-    values = np.array([int(x * scale) for x in entries], dtype=np.int64)
-    return values[(digits_of(base, length) + (base - 1)) // 2]
-
-
-def _high(records: Records, entries: list[Fraction], level: int) -> NDArray[np.bool_]:
+def _high(records: Records, entries: list[Number], level: int) -> NDArray[np.bool_]:
     """Return which records have an entry of this height; the others came with a lower one."""
     if all(height(x) == level for x in entries):
         return np.ones(len(records), dtype=bool)
-    scale = lcm(*(x.denominator for x in entries))
-    high = [int(x * scale) for x in entries if height(x) == level]
-    found = np.zeros(len(records), dtype=bool)
-    for name in ("A", "F", "C", "G", "B", "D", "u", "x0"):
-        found |= np.isin(records.matrix("", name), high).any(axis=(1, 2))
-    return found
+    scalars = Scalars.of(entries, records.number_field)
+    return scalars.high([records.matrix("", name) for name in ("A", "F", "C", "G", "B", "D", "u", "x0")], level)

@@ -16,13 +16,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import groupby
+from typing import Any
 
 import joblib
 import numpy as np
+from flint import nmod
 
 from ...base.errors import InvalidInput
 from ...base.progress import Progress
 from ...base.workers import pool
+from ...exact.algebra.fields import Field
 from ...exact.system.systems import ResidualSystem
 from ..language.by_batches import Table as Answers
 from ..language.by_batches import UndefinedAt, Values, true_of, values_of
@@ -31,6 +34,7 @@ from ..language.invariance import invariant
 from ..language.nodes import Node
 from ..language.nodes import Undefined as NoValue
 from ..quantities.batches import Batch
+from ..quantities.blocks import Scalars, lifted
 from ..quantities.elimination import Integers
 from .boxes import Box, Share, Stretch
 from .kept import WORTH_SHARING
@@ -134,7 +138,7 @@ def tabulate(box: Box, hypotheses: Sequence[Node], columns: Sequence[Node], *, m
             for row in part.rows.values():
                 _merge(rows, row)
     progress("looking at known systems", 0, 0)
-    _add_known(table, rows, hypotheses, columns, box.prime)
+    _add_known(table, rows, hypotheses, columns, box.field)
     progress("looking at direct sums", 0, 0)
     _add_sums(table, rows, hypotheses, columns)
     progress("looking at drawn systems", 0, 0)
@@ -193,8 +197,8 @@ def _add_stretch(part: _Part, at: tuple[int, int], stretch: Stretch, hypotheses:
             old.place, old.system = place, stretch.batch.system(first)
 
 
-def _add_known(table: Table, rows: dict[Values, Row], hypotheses: Sequence[Node], columns: Sequence[Node], prime: int | None) -> None:
-    listed = sorted(known_systems(prime), key=lambda one: (_sizes(one.subject.system), one.origin))
+def _add_known(table: Table, rows: dict[Values, Row], hypotheses: Sequence[Node], columns: Sequence[Node], field: Field) -> None:
+    listed = sorted(known_systems(field), key=lambda one: (_sizes(one.subject.system), one.origin))
     met = dict.fromkeys((CORPUS, ADVERSARY), 0)
     for number, one in enumerate(listed):
         exactly = Exactly({"": one.subject})
@@ -212,7 +216,7 @@ def _add_known(table: Table, rows: dict[Values, Row], hypotheses: Sequence[Node]
 
 def _add_sums(table: Table, rows: dict[Values, Row], hypotheses: Sequence[Node], columns: Sequence[Node]) -> None:
     """Add the direct sums of the first systems of the rows with the smallest of them; there are none where entries have denominators."""
-    if any(x.denominator > 1 for x in table.box.entries):
+    if Scalars.of(table.box.entries, table.box.number_field).scale != 1:
         return
     firsts = [row.system for row in sorted(rows.values(), key=lambda row: row.place) if row.in_box]
     partners = firsts[: MOST_SUMS // len(firsts)] if firsts else []
@@ -220,14 +224,14 @@ def _add_sums(table: Table, rows: dict[Values, Row], hypotheses: Sequence[Node],
     pairs.sort(key=lambda pair: _sizes_of_sum(*pair))
     for number, (_, group) in enumerate(groupby(pairs, key=lambda pair: _sizes_of_sum(*pair))):
         listed = list(group)
-        batch = _direct_sums(listed, table.box.prime)
+        batch = _direct_sums(listed, table.box)
         table.sums += len(listed)
         table.sums_met += _add_batch(batch, (OUTSIDE + 1, number), rows, hypotheses, columns)
 
 
 def _add_drawn(table: Table, rows: dict[Values, Row], hypotheses: Sequence[Node], columns: Sequence[Node]) -> None:
     """Add systems with up to 6 states, 3 faults and 4 outputs, whose entries are -1, 0, 1 (over GF(2): 0, 1), many of them 0."""
-    rng = np.random.default_rng(SEED)
+    rng, degree = np.random.default_rng(SEED), table.box.field.degree
     for number in range(DRAWS):
         if table.drawn_met >= MOST_MET:
             break
@@ -235,11 +239,12 @@ def _add_drawn(table: Table, rows: dict[Values, Row], hypotheses: Sequence[Node]
         full = rng.choice((0.1, 0.2, 0.35, 0.6), size=4) * (1, 1, 1, rng.choice((0, 0.5, 1)))
         signs = (1,) if table.box.prime == 2 else (-1, 1)
         A, F, C, G = (
-            np.where(rng.random((AT_A_TIME, *shape)) < share, rng.choice(signs, (AT_A_TIME, *shape)), 0).astype(np.int64)
+            lifted(np.where(rng.random((AT_A_TIME, *shape)) < share, rng.choice(signs, (AT_A_TIME, *shape)), 0).astype(np.int64), degree)
             for shape, share in zip(((n, n), (n, m), (p, n), (p, m)), full, strict=True)
         )
+        batch = Batch(A, F, C, G, table.box.prime, number_field=table.box.number_field)
         table.drawn += AT_A_TIME
-        table.drawn_met += _add_batch(Batch(A, F, C, G, table.box.prime), (OUTSIDE + 2, number), rows, hypotheses, columns)
+        table.drawn_met += _add_batch(batch, (OUTSIDE + 2, number), rows, hypotheses, columns)
 
 
 def _add_batch(batch: Batch, at: tuple[int, int], rows: dict[Values, Row], hypotheses: Sequence[Node], columns: Sequence[Node]) -> int:
@@ -256,9 +261,9 @@ def _add_batch(batch: Batch, at: tuple[int, int], rows: dict[Values, Row], hypot
     return met
 
 
-def _direct_sums(pairs: Sequence[tuple[ResidualSystem, ResidualSystem]], prime: int | None) -> Batch:
+def _direct_sums(pairs: Sequence[tuple[ResidualSystem, ResidualSystem]], box: Box) -> Batch:
     """Return the direct sums of pairs of systems with integer entries, all of the same sizes."""
-    _, n, m, p = _sizes_of_sum(*pairs[0])
+    n, m, p = (size * box.field.degree for size in _sizes_of_sum(*pairs[0])[1:])
     built = {"A": (n, n), "F": (n, m), "C": (p, n), "G": (p, m)}
     joined = {name: np.zeros((len(pairs), *shape), dtype=np.int64) for name, shape in built.items()}
     for place, (one, other) in enumerate(pairs):
@@ -267,17 +272,19 @@ def _direct_sums(pairs: Sequence[tuple[ResidualSystem, ResidualSystem]], prime: 
             height, width = first.shape
             into[place, :height, :width] = first
             into[place, height:, width:] = second
-    return Batch(joined["A"], joined["F"], joined["C"], joined["G"], prime)
+    return Batch(joined["A"], joined["F"], joined["C"], joined["G"], box.prime, number_field=box.number_field)
 
 
 @lru_cache(maxsize=10_000)
 def _integers(system: ResidualSystem) -> dict[str, Integers]:
-    """Return the matrices of a system whose entries are integers or residues."""
-    parts = {name: getattr(system, name) for name in "AFCG"}
-    return {
-        name: np.array([[int(x) for x in row] for row in part.elements()], dtype=np.int64).reshape(part.nrows, part.ncols)
-        for name, part in parts.items()
-    }
+    """Return the matrices of a system whose entries are integers, residues, or blocks of integers."""
+    return {name: _table(getattr(system, name).flint) for name in "AFCG"}
+
+
+def _table(matrix: Any) -> Integers:
+    """Return the numbers of a matrix of flint, which are integers or residues."""
+    numbers = [int(x) if isinstance(x, nmod) else int(x.p) for x in matrix.entries()]
+    return np.array(numbers, dtype=np.int64).reshape(matrix.nrows(), matrix.ncols())
 
 
 def _sizes_of_sum(one: ResidualSystem, other: ResidualSystem) -> tuple[int, ...]:

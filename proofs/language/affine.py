@@ -65,16 +65,25 @@ def _check_linear(node: Node, variable: str) -> None:
 
 
 def _check_argument(node: Node, variable: str) -> None:
-    """Raise InvalidInput unless the number of samples is s, s + c or s - c."""
+    """Raise InvalidInput unless the number of samples is s with numbers without s added and taken away."""
     argument = node.args[0]
-    shifted = argument.op in "+-" and variable not in variables(argument.args[1]) and argument.args[0].op == "variable"
-    turned = argument.op == "+" and variable not in variables(argument.args[0]) and argument.args[1].op == "variable"
-    if argument.op == "variable" or shifted or turned:
+    part: Node | None = argument
+    while part is not None and part.op != "variable":
+        part = _holding(part, variable)
+    if part is not None:
         return
     raise InvalidInput(
         f"column {argument.column}: got {shorten(node.text)} for every {variable}, expected {variable}, {variable} + c or "
         f"{variable} - c as the number of samples, c without {variable}"
     )
+
+
+def _holding(node: Node, variable: str) -> Node | None:
+    """Return the part of a sum that holds the variable, where it is one part alone, and is not taken away."""
+    holding = [variable in variables(part) for part in node.args]
+    if node.op not in ("+", "-") or sum(holding) != 1 or (node.op == "-" and holding[1]):
+        return None
+    return node.args[holding.index(True)]
 
 
 def _refusal(node: Node, variable: str) -> InvalidInput:
@@ -117,17 +126,21 @@ def _holds(node: Node, variable: str) -> bool:
 
 def _shift(node: Node, variable: str, value: Callable[[Node, int | None], float]) -> int:
     """Return c of the argument s + c; 0 where c is no number, which is told when the whole is decided, unless it is guarded against."""
-    argument = node.args[0]
-    if argument.op == "variable":
-        return 0
-    other = next(part for part in argument.args if variable not in variables(part))
-    try:
-        found = value(other, None)
-    except Undefined:
-        return 0
-    if isinf(found):
-        return 0
-    return int(found) if argument.op == "+" else -int(found)
+    argument, shift = node.args[0], 0
+    while argument.op != "variable":
+        holding = _holding(argument, variable)
+        if holding is None:
+            return 0
+        other = next(part for part in argument.args if part is not holding)
+        try:
+            found = value(other, None)
+        except Undefined:
+            return 0
+        if isinf(found):
+            return 0
+        shift += int(found) if argument.op == "+" else -int(found)
+        argument = holding
+    return shift
 
 
 def _comparisons(body: Node, variable: str) -> Iterator[tuple[Node, Node]]:

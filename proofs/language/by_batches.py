@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from ...exact.algebra.stability import is_schur
 from ..quantities.batches import characteristic
+from ..quantities.blocks import transposed
 from ..quantities.elimination import Integers, Overflow, leading_ranks
 from ..quantities.many import Chosen, Many
 from ..quantities.ranks import Numbers, Wanted
@@ -196,14 +197,16 @@ def _finder(key: Any) -> Any:
 def _of_matrices(node: Node, batch: Many) -> Integers:
     """Return what a function of a matrix is, for every system of the batch."""
     built = _matrices(node.args[0], batch)
-    count, rows, columns = built.shape
+    count, rows, columns = len(built), built.shape[1] // batch.degree, built.shape[2] // batch.degree
+    if node.op == "schur_stable" and batch.number_field is not None:
+        raise OneByOne
     if node.op in ("nilpotent", "schur_stable") and rows != columns:
         raise OneByOne
     match node.op:
         case "rank":
-            found = leading_ranks(built, batch.prime)[:, -1]
+            found = leading_ranks(built, batch.prime)[:, -1] // batch.degree
         case "nullity":
-            found = columns - leading_ranks(built, batch.prime)[:, -1]
+            found = columns - leading_ranks(built, batch.prime)[:, -1] // batch.degree
         case "rows":
             found = np.full(count, rows)
         case "columns":
@@ -241,11 +244,11 @@ def _matrices(node: Node, batch: Many) -> Integers:
                 return batch.matrix(*node.value)
             case "I":
                 k = side(number(node.args[0]), node)
-                return np.broadcast_to(np.eye(k, dtype=np.int64), (len(batch), k, k))
+                return np.broadcast_to(np.eye(k * batch.degree, dtype=np.int64), (len(batch), k * batch.degree, k * batch.degree))
             case "zeros":
-                return np.zeros((len(batch), *(side(number(part), node) for part in node.args)), dtype=np.int64)
+                return np.zeros((len(batch), *(side(number(part), node) * batch.degree for part in node.args)), dtype=np.int64)
             case "transpose":
-                return np.swapaxes(_matrices(node.args[0], batch), 1, 2)
+                return transposed(_matrices(node.args[0], batch), batch.degree)
             case "negative":
                 return -_matrices(node.args[0], batch)
             case "power":
@@ -254,7 +257,7 @@ def _matrices(node: Node, batch: Many) -> Integers:
                     raise OneByOne
                 return _powers(base, exponent(number(node.args[1]), node), batch)
         parts = [_matrices(part, batch) for part in node.args]
-        check_shapes(node, [part.shape[1:] for part in parts])
+        check_shapes(node, [(part.shape[1] // batch.degree, part.shape[2] // batch.degree) for part in parts])
     except Undefined:
         raise OneByOne from None
     match node.op:

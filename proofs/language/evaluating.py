@@ -19,9 +19,9 @@ from math import inf, isinf, isnan
 from typing import Any, Protocol
 
 from ...base.errors import shorten
-from ...exact.algebra.fields import QQ
+from ...exact.algebra.embeddings import one_modulus, stable_there
+from ...exact.algebra.fields import Field, PrimeField
 from ...exact.algebra.matrices import Matrix, beside, rank, stacked
-from ...exact.algebra.stability import is_stable
 from ..quantities.cases import Case, Choice, ChoiceSubject, Known, Pair, PairSubject, Record, RecordSubject
 from ..quantities.choices import OF_A_CHOICE
 from ..quantities.pairs import OF_A_PAIR, OF_ONE_A_AND_C
@@ -94,8 +94,8 @@ class Exactly:
         key = subject, name, s
         if key not in self.asked:
             given, found = self.found(subject, name)
-            if found.only_over_Q and given.system.field != QQ:
-                raise Undefined(f"got {name} over {given.system.field}, expected a system over Q, of which alone it is asked")
+            if found.circle:
+                check_circle(name, given.system.field)
             self.asked[key] = found.exact(given) if s is None else found.exact(given, s)
         return self.asked[key]
 
@@ -129,10 +129,18 @@ class Exactly:
             case "nilpotent":
                 found = _power(built, built.nrows).is_zero()
             case _:
-                found = is_stable(built)
+                check_circle(node.text, built.field)
+                found = stable_there(built)
         at = ", ".join(f"{name} = {bound[name]}" for name in sorted(variables(node)))
         self.matrices[node.text + (f" at {at}" if at else "")] = (node.op, built, found)
         return found
+
+
+def check_circle(text: str, field: Field) -> None:
+    """Raise Undefined where what lies inside the unit circle has no one answer."""
+    if not one_modulus(field):
+        root = "" if isinstance(field, PrimeField) else ", or this field with one of its real roots"
+        raise Undefined(f"got {text} over {field}, expected a system over Q{root}: it asks what lies inside the unit circle")
 
 
 def exactly(case: Case, known: Known | None = None) -> Exactly:
@@ -303,7 +311,8 @@ def _power(base: Matrix, k: int) -> Matrix:
 
 def _samples(found: float, node: Node) -> int:
     if not 0 <= found <= FARTHEST:
-        raise Undefined(f"got {found} as the number of samples in {node.text}, expected an integer >= 0")
+        hint = "; guard it, or begin its windows at max(..., 0)" if found < 0 else ""
+        raise Undefined(f"got {found} as the number of samples in {node.text}, expected an integer >= 0{hint}")
     return int(found)
 
 

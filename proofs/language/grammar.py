@@ -8,6 +8,7 @@ Raises InvalidInput with the column, what was got, and the nearest name where th
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Mapping
 from difflib import get_close_matches
 
@@ -49,11 +50,17 @@ def read(text: str, kind: Kind = WORD, vocabulary: Vocabulary = ABOUT_A_SYSTEM) 
     try:
         tree = ast.parse(text, mode="eval")
     except SyntaxError as error:
-        raise InvalidInput(f"column {error.offset or 1}: got {shorten(text)}, expected an expression ({error.msg})") from None
+        hint = "; == compares" if re.search(r"[^=<>!]=[^=]", text) else ""
+        raise InvalidInput(f"column {error.offset or 1}: got {shorten(text)}, expected an expression ({error.msg}){hint}") from None
     except (RecursionError, MemoryError, ValueError):
         raise InvalidInput(f"got {shorten(text)}, expected an expression of at most {DEEPEST} levels") from None
     reader = _Reader(text, vocabulary)
     return reader.expect(reader.node(tree.body, 0), kind, tree.body)
+
+
+def _about_others(subject: str) -> str:
+    """Return what claims are about in which this is the name of a system; "" where there is none."""
+    return next((about for about, one in VOCABULARIES.items() if subject in one.subjects), "")
 
 
 class _Reader:
@@ -107,6 +114,9 @@ class _Reader:
                 return self.of_subject(tree, subject, name)
             case ast.Attribute(value=inner, attr="T"):
                 return self.make(tree, "transpose", MATRIX, (self.expect(self.node(inner, depth + 1), MATRIX, inner),))
+            case ast.Attribute(value=ast.Name(id=subject)) if elsewhere := _about_others(subject):
+                of = f"a word of claims about a {elsewhere}"
+                raise self.bad(tree, f"got {shorten(self.words(tree))}, {of}, expected one of those about a {self.vocabulary.about}")
             case ast.Attribute():
                 raise self.bad(tree, f"got {shorten(self.words(tree))}, expected .T of a matrix{self._subjects(tree)}")
             case ast.UnaryOp(op=ast.Not(), operand=inner):
@@ -137,6 +147,11 @@ class _Reader:
                 return self.windowed(tree, subject, name, args, depth, quantities())
             case ast.Call(keywords=[], func=ast.Attribute() as function) if any(self.vocabulary.subjects):
                 raise self.bad(tree, f"got {shorten(self.words(tree))}, expected the name of a function{self._subjects(function)}")
+            case ast.Constant(value=float()):
+                raise self.bad(tree, f"got {shorten(self.words(tree))}, expected an integer; multiply the comparison by the denominators")
+            case ast.BinOp(op=ast.Div() | ast.Pow()):
+                hint = "; // rounds down" if isinstance(tree.op, ast.Div) else "; power(A, k) is that of a matrix"
+                raise self.bad(tree, f"got {shorten(self.words(tree))}, expected one of {' '.join(ARITHMETIC.values())}{hint}")
             case _:
                 raise self.bad(tree, f"got {shorten(self.words(tree))}, which the language has no words for")
 

@@ -17,15 +17,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 from ...base.errors import InvalidInput
-from ...exact.algebra.fields import QQ, PrimeField
+from ...exact.algebra.fields import NumberField
 from ...exact.system.systems import ResidualSystem
 from . import ranks as names
+from .blocks import exactly, transposed
 from .elimination import Integers, Overflow, determinants, leading_ranks
 from .many import Chosen, Column, Many
 from .zeros import choices
@@ -33,7 +33,9 @@ from .zeros import choices
 
 @dataclass
 class Batch(Many):
-    """These are systems of the same sizes over Q (`prime` None) or GF(prime): the matrices are these, over one denominator."""
+    """These are systems of the same sizes over Q (`prime` None), GF(prime) or a number field: the matrices are these, over one denominator;
+    over a number field of degree d their entries are blocks d x d.
+    """
 
     A: Integers
     F: Integers
@@ -41,6 +43,7 @@ class Batch(Many):
     G: Integers
     prime: int | None = None
     denominator: int = 1
+    number_field: NumberField | None = None
     _columns: dict[object, Column] = field(default_factory=dict)
 
     def __len__(self) -> int:
@@ -49,17 +52,17 @@ class Batch(Many):
     @property
     def n(self) -> int:
         """The number of states."""
-        return int(self.A.shape[1])
+        return int(self.A.shape[1]) // self.degree
 
     @property
     def m(self) -> int:
         """The number of faults."""
-        return int(self.F.shape[2])
+        return int(self.F.shape[2]) // self.degree
 
     @property
     def p(self) -> int:
         """The number of outputs."""
-        return int(self.C.shape[1])
+        return int(self.C.shape[1]) // self.degree
 
     @property
     def sizes(self) -> Mapping[str, tuple[int, int, int]]:
@@ -82,11 +85,8 @@ class Batch(Many):
 
     def system(self, index: int) -> ResidualSystem:
         """Return one of the systems, as an exact one."""
-        tables = [part[index].tolist() for part in (self.A, self.F, self.C, self.G)]
-        if self.denominator != 1:
-            tables = [[[Fraction(x, self.denominator) for x in row] for row in table] for table in tables]
-        over = QQ if self.prime is None else PrimeField(self.prime)
-        return ResidualSystem.of(*tables, field=over, n=self.n, m=self.m, p=self.p)
+        parts = (self.A, self.F, self.C, self.G)
+        return ResidualSystem(*(exactly(part[index], self.denominator, self.number_field, self.prime) for part in parts))
 
     def column(self, key: object, rows: Chosen, find: Callable[[Batch], Integers] | None = None) -> Integers:
         """Return the numbers (len(rows), width) of a family, or of what `find` finds, for the systems of these rows. Raises Overflow."""
@@ -94,23 +94,25 @@ class Batch(Many):
             raise Overflow("numbers over a denominator")
         if self.prime is not None and key in (names.CHARACTERISTIC, names.MINORS):
             raise InvalidInput(f"got a question about the unit circle over GF({self.prime}), expected one over Q")
+        if self.number_field is not None and key in (names.CHARACTERISTIC, names.MINORS):
+            raise Overflow("numbers of a number field")
         return self.kept(key, rows, find or FIND[str(key)])
 
     def part(self, rows: Chosen) -> Batch:
         """Return the batch of these rows alone, with nothing known of it; the batch itself where these are all."""
         if len(rows) == len(self):
             return self
-        return Batch(self.A[rows], self.F[rows], self.C[rows], self.G[rows], self.prime, self.denominator)
+        return Batch(self.A[rows], self.F[rows], self.C[rows], self.G[rows], self.prime, self.denominator, self.number_field)
 
     def transposed(self) -> Batch:
         """Return (A', C', F', G')."""
-        A, F, C, G = (np.swapaxes(part, 1, 2) for part in (self.A, self.C, self.F, self.G))
-        return Batch(A, F, C, G, self.prime, self.denominator)
+        A, F, C, G = (transposed(part, self.degree) for part in (self.A, self.C, self.F, self.G))
+        return Batch(A, F, C, G, self.prime, self.denominator, self.number_field)
 
 
 def observed(batch: Batch, s: int) -> Integers:
     """Return O_s of every system."""
-    blocks, row = [np.zeros((len(batch), 0, batch.n), dtype=np.int64)], batch.C
+    blocks, row = [np.zeros((len(batch), 0, batch.A.shape[1]), dtype=np.int64)], batch.C
     for k in range(s):
         blocks.append(row)
         if k < s - 1:
@@ -120,7 +122,7 @@ def observed(batch: Batch, s: int) -> Integers:
 
 def driven(batch: Batch, s: int) -> Integers:
     """Return T_s of every system."""
-    p, m = batch.p, batch.m
+    p, m = batch.G.shape[1:]
     built = np.zeros((len(batch), p * s, m * s), dtype=np.int64)
     markov, state = batch.G, batch.F
     for k in range(s):
@@ -134,7 +136,7 @@ def driven(batch: Batch, s: int) -> Integers:
 
 def reached(batch: Batch, s: int) -> Integers:
     """Return [A^(s-1) F, ..., F] of every system."""
-    blocks, column = [np.zeros((len(batch), batch.n, 0), dtype=np.int64)], batch.F
+    blocks, column = [np.zeros((len(batch), batch.A.shape[1], 0), dtype=np.int64)], batch.F
     for k in range(s):
         blocks.append(column)
         if k < s - 1:
@@ -150,7 +152,7 @@ def window(batch: Batch, s: int) -> Integers:
 def _by_samples(batch: Batch, built: Integers, height: int) -> Integers:
     """Return the ranks of the first 0, 1, ..., n + 1 block rows of `height` rows."""
     ranks = leading_ranks(built, batch.prime)
-    return ranks[:, [height * s for s in range(batch.n + 2)]]
+    return ranks[:, [height * s * batch.degree for s in range(batch.n + 2)]] // batch.degree
 
 
 def _window(batch: Batch) -> Integers:
@@ -159,12 +161,12 @@ def _window(batch: Batch) -> Integers:
 
 def _later(batch: Batch) -> Integers:
     built = window(batch, batch.n + 1)
-    return _by_samples(batch, np.delete(built, np.s_[batch.n : batch.n + batch.m], axis=2), batch.p)
+    return _by_samples(batch, np.delete(built, np.s_[batch.A.shape[1] : batch.A.shape[1] + batch.G.shape[2]], axis=2), batch.p)
 
 
 def _silent(batch: Batch) -> Integers:
     built = np.concatenate([driven(batch, batch.n), reached(batch, batch.n)], axis=1)
-    return leading_ranks(built, batch.prime)[:, -1:]
+    return leading_ranks(built, batch.prime)[:, -1:] // batch.degree
 
 
 def characteristic(matrices: Integers) -> Integers:

@@ -12,13 +12,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from ...exact.algebra.matrices import Matrix
+from ...exact.algebra.fields import NumberField
 from .batches import Batch
+from .blocks import exactly
 from .cases import Choice
 from .elimination import Integers, Overflow
 from .many import Chosen, Column, Many
@@ -55,6 +55,11 @@ class Choices(Many):
         return self.first.prime
 
     @property
+    def number_field(self) -> NumberField | None:  # type: ignore[override]
+        """This is that of the systems."""
+        return self.first.number_field
+
+    @property
     def denominator(self) -> int:  # type: ignore[override]
         """This is that of all systems."""
         return self.first.denominator
@@ -71,11 +76,8 @@ class Choices(Many):
 
     def case(self, index: int) -> Choice:
         """Return one of the choices."""
-        system, height, k = self.first.system(int(self.firsts[index])), int(self.heights[index]), self.P.shape[2]
-        rows = self.P[index, :height].tolist()
-        if self.denominator != 1:
-            rows = [[Fraction(x, self.denominator) for x in row] for row in rows]
-        return Choice(system, Matrix.of(rows, system.field, shape=(height, k)))
+        rows = self.P[index, : int(self.heights[index]) * self.degree]
+        return Choice(self.first.system(int(self.firsts[index])), exactly(rows, self.denominator, self.number_field, self.prime))
 
     def matrix(self, subject: str, name: str) -> Integers:
         """Return P, or A, F, C or G of one of the two systems. Raises Overflow where they are no integers."""
@@ -84,7 +86,7 @@ class Choices(Many):
                 raise Overflow("numbers over a denominator")
             return self.second.matrix("", name)
         if name == "P":
-            return self.P[:, : int(self.heights.max(initial=0))]
+            return self.P[:, : int(self.heights.max(initial=0)) * self.degree]
         return self.first.matrix("", name)[self.firsts]
 
     def part(self, rows: Chosen) -> Choices:

@@ -14,6 +14,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from ...exact.algebra.fields import NumberField
 from .cases import Case
 from .elimination import Integers, Overflow, times
 
@@ -29,9 +30,12 @@ class Column:
 
 
 class Many(ABC):
-    """These are cases over Q (`prime` None) or GF(prime), of integers over one `denominator`; `own` are the quantities of the whole."""
+    """These are cases over Q (`prime` None), GF(prime) or a number field, of integers over one `denominator`; `own` are the quantities of
+    the whole. Over a number field of degree d each entry of a matrix is a block d x d (`blocks.py`).
+    """
 
     prime: int | None
+    number_field: NumberField | None
     denominator: int
     own: Mapping[str, Any]
     _columns: dict[object, Column]
@@ -44,6 +48,11 @@ class Many(ABC):
     @abstractmethod
     def sizes(self) -> Mapping[str, tuple[int, int, int]]:
         """These are (n, m, p) of each system of a case, which all cases share."""
+
+    @property
+    def degree(self) -> int:
+        """The number of rows of a block: 1 but over a number field."""
+        return 1 if self.number_field is None else self.number_field.degree
 
     @property
     def samples(self) -> int:

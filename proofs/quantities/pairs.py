@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from ...exact.algebra.fields import NumberField
 from ...exact.algebra.matrices import Matrix, beside, stacked
 from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import comparison_certificate
@@ -57,6 +58,11 @@ class Pairs(Many):
     def prime(self) -> int | None:  # type: ignore[override]
         """This is that of both batches."""
         return self.first.prime
+
+    @property
+    def number_field(self) -> NumberField | None:  # type: ignore[override]
+        """This is that of the systems."""
+        return self.first.number_field
 
     @property
     def denominator(self) -> int:  # type: ignore[override]
@@ -99,7 +105,8 @@ def together(pairs: Any) -> Integers:
         distinct, which = np.unique(places, return_inverse=True)
         built.append(window(batch.part(distinct), samples)[which])
     ranks = leading_ranks(np.concatenate(built, axis=2), pairs.prime)
-    return ranks[:, [pairs.first.p * s for s in range(samples + 1)]]
+    found: Integers = ranks[:, [pairs.first.G.shape[1] * s for s in range(samples + 1)]] // pairs.degree
+    return found
 
 
 def _equal_at(numbers: Numbers, s: int) -> bool:

@@ -2,7 +2,7 @@
 
     OF_A_RECORD     the quantities of a record, by their names
     Records         many records of the same lengths at once
-    INPUT, BOTH, STATE      the families: ranks of the Hankel matrices of u, of [u; y], and of [X; U_k], each with its k
+    INPUT, OUTPUT, BOTH, STATE      the families: ranks of the Hankel matrices of u, y, [u; y], and of [X; U_k], each with its k
 
 A Hankel matrix with k block rows has N - k + 1 columns, k = 0, ..., N; beyond N it has none, and its rank is 0.
 """
@@ -11,29 +11,30 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
+from ...exact.algebra.fields import NumberField
 from ...exact.algebra.matrices import Matrix, beside, rank, stacked
 from ...exact.structure.signals import excitation_matrix, hankel
 from ...exact.system.systems import FaultySystem, ResidualSystem
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from .batches import Batch
+from .blocks import exactly, transposed
 from .cases import Record, RecordSubject
 from .elimination import Integers, leading_ranks
 from .many import Chosen, Column, Many
 from .ranks import Numbers
 from .registry import Kind, Quantity
 
-INPUT, BOTH, STATE = "Hankel of u", "Hankel of [u; y]", "[X; U]"
+INPUT, OUTPUT, BOTH, STATE = "Hankel of u", "Hankel of y", "Hankel of [u; y]", "[X; U]"
 
 
 @dataclass
 class Records(Many):
-    """Record i is the system `firsts[i]` of `first`, with (A, B, C, D) as number `seconds[i]` of `inputs`, and u[i] (N, nu), x0[i] (n)."""
+    """Record i is the system `firsts[i]` of `first`, (A, B, C, D) number `seconds[i]` of `inputs`, u[i] (N, nu), x0[i] (n, 1)."""
 
     first: Batch
     firsts: Chosen
@@ -57,6 +58,11 @@ class Records(Many):
         return self.first.prime
 
     @property
+    def number_field(self) -> NumberField | None:  # type: ignore[override]
+        """This is that of the systems."""
+        return self.first.number_field
+
+    @property
     def denominator(self) -> int:  # type: ignore[override]
         """This is that of all entries."""
         return self.first.denominator
@@ -69,25 +75,20 @@ class Records(Many):
     @property
     def samples(self) -> int:
         """The number of samples."""
-        return int(self.u.shape[1])
+        return int(self.u.shape[1]) // self.degree
 
     def case(self, index: int) -> Record:
         """Return one of the records."""
         system, inputs = self.first.system(int(self.firsts[index])), self.inputs.system(int(self.seconds[index]))
-
-        def exactly(table: Integers) -> Matrix:
-            rows = [[Fraction(int(x), self.denominator) for x in row] for row in table]
-            whole = rows if self.prime is None else [[int(x) for x in row] for row in table]
-            return Matrix.of(whole, system.field, shape=table.shape)
-
-        return Record(FaultySystem(system, inputs.F, inputs.G), exactly(self.u[index]), exactly(self.x0[index][:, None]))
+        u, x0 = (exactly(part[index], self.denominator, self.number_field, self.prime) for part in (self.u, self.x0))
+        return Record(FaultySystem(system, inputs.F, inputs.G), u, x0)
 
     def matrix(self, subject: str, name: str) -> Integers:
         """Return A, F, C or G of one of the two systems, B, D, u or x0."""
         if subject or name in ("B", "D"):
             return self.inputs.matrix("", {"B": "F", "D": "G"}.get(name, name))[self.seconds]
         if name in ("u", "x0"):
-            return self.u if name == "u" else self.x0[:, :, None]
+            return self.u if name == "u" else self.x0
         return self.first.matrix("", name)[self.firsts]
 
     def part(self, rows: Chosen) -> Records:
@@ -100,21 +101,27 @@ class Records(Many):
             return self.kept(key, rows, find)
         if isinstance(key, tuple) and key[0] in DATA:
             family, k = key
-            return self.kept(key, rows, lambda part: leading_ranks(DATA[family](part, k), part.prime)[:, -1:])
+            return self.kept(key, rows, lambda part: leading_ranks(DATA[family](part, k), part.prime)[:, -1:] // part.degree)
         batch, places, name = (self.inputs, self.seconds, key[1]) if isinstance(key, tuple) else (self.first, self.firsts, key)
         distinct, which = np.unique(places[rows], return_inverse=True)
         return batch.column(name, distinct)[which]
 
+    @property
+    def inputs_in_time(self) -> Integers:
+        """These are u(0), ..., u(N - 1) as columns (cases, N, nu d, d)."""
+        d = self.degree
+        columns = [transposed(self.u[:, t * d : (t + 1) * d], d) for t in range(self.samples)]
+        return np.stack(columns, axis=1) if columns else np.zeros((len(self), 0, self.u.shape[2], d), dtype=np.int64)
+
     def trajectory(self) -> tuple[Integers, Integers]:
-        """Return the states x(0), ..., x(N) (cases, N + 1, n) and outputs (cases, N, p). Raises Overflow."""
+        """Return the states x(0), ..., x(N) as columns (cases, N + 1, n d, d), and outputs (cases, N, p d, d). Raises Overflow."""
         A, B, C, D = (self.inputs.matrix("", name)[self.seconds] for name in "AFCG")
-        state, states, outputs = self.x0[:, :, None], [self.x0], []
-        for t in range(self.samples):
-            u = self.u[:, t, :, None]
-            outputs.append(self.sum(self.product(C, state), self.product(D, u))[:, :, 0])
+        state, states, outputs = self.x0, [self.x0], []
+        for u in np.moveaxis(self.inputs_in_time, 1, 0):
+            outputs.append(self.sum(self.product(C, state), self.product(D, u)))
             state = self.sum(self.product(A, state), self.product(B, u))
-            states.append(state[:, :, 0])
-        empty = np.zeros((len(self), 0, self.inputs.p), dtype=np.int64)
+            states.append(state)
+        empty = np.zeros((len(self), 0, C.shape[1], self.degree), dtype=np.int64)
         return np.stack(states, axis=1), np.stack(outputs, axis=1) if outputs else empty
 
     def sum(self, left: Integers, right: Integers) -> Integers:
@@ -123,23 +130,37 @@ class Records(Many):
 
 
 def _hankel(signal: Integers, k: int) -> Integers:
-    """Return the Hankel matrices (cases, q k, N - k + 1) of signals (cases, N, q)."""
-    count, samples, _ = signal.shape
+    """Return the Hankel matrices (cases, q k d, (N - k + 1) d) of signals of columns (cases, N, q d, d)."""
+    count, samples, _, d = signal.shape
     columns = samples - k + 1
-    blocks = [np.swapaxes(signal[:, i : i + columns], 1, 2) for i in range(k)]
-    return np.concatenate([np.zeros((count, 0, columns), dtype=np.int64), *blocks], axis=1)
+    blocks = [_side_by_side(signal[:, i : i + columns]) for i in range(k)]
+    return np.concatenate([np.zeros((count, 0, columns * d), dtype=np.int64), *blocks], axis=1)
+
+
+def _side_by_side(columns: Integers) -> Integers:
+    """Return the matrices (cases, q d, N d) of these columns (cases, N, q d, d)."""
+    count, samples, height, d = columns.shape
+    return np.swapaxes(columns, 1, 2).reshape(count, height, samples * d)
+
+
+def _of_output(records: Records, k: int) -> Integers:
+    return _hankel(records.trajectory()[1], k)
 
 
 def _of_both(records: Records, k: int) -> Integers:
-    return _hankel(np.concatenate([records.u, records.trajectory()[1]], axis=2), k)
+    return _hankel(np.concatenate([records.inputs_in_time, records.trajectory()[1]], axis=2), k)
 
 
 def _of_state(records: Records, k: int) -> Integers:
     states = records.trajectory()[0][:, : records.samples - k + 1]
-    return np.concatenate([np.swapaxes(states, 1, 2), _hankel(records.u, k)], axis=1)
+    return np.concatenate([_side_by_side(states), _hankel(records.inputs_in_time, k)], axis=1)
 
 
-DATA: dict[str, Callable[[Records, int], Integers]] = {INPUT: lambda one, k: _hankel(one.u, k), BOTH: _of_both, STATE: _of_state}
+def _of_input(records: Records, k: int) -> Integers:
+    return _hankel(records.inputs_in_time, k)
+
+
+DATA: dict[str, Callable[[Records, int], Integers]] = {INPUT: _of_input, OUTPUT: _of_output, BOTH: _of_both, STATE: _of_state}
 
 
 def _from_data(family: str) -> Callable[[Numbers, int], int]:
@@ -152,6 +173,10 @@ def _exciting(numbers: Numbers, k: int) -> bool:
 
 def _u_rank(record: RecordSubject, k: int) -> int:
     return rank(hankel(record.u, k)) if k <= record.u.nrows else 0
+
+
+def _y_rank(record: RecordSubject, k: int) -> int:
+    return rank(hankel(record.trajectory.residuals, k)) if k <= record.u.nrows else 0
 
 
 def _w_rank(record: RecordSubject, k: int) -> int:
@@ -169,6 +194,12 @@ def _u_borne(record: RecordSubject, k: int) -> list[Certificate]:
     field, nu = record.u.field, record.u.ncols
     system = ResidualSystem(Matrix.zero(field, 0, 0), Matrix.zero(field, 0, nu), Matrix.zero(field, nu, 0), Matrix.identity(field, nu))
     return [make.data_rank("residual-hankel", system, Matrix.zero(field, 0, 1), record.u, k)]
+
+
+def _y_borne(record: RecordSubject, k: int) -> list[Certificate]:
+    if k > record.u.nrows:
+        return []
+    return [make.data_rank("residual-hankel", record.inputs.system, record.x0, record.u, k)]
 
 
 def _w_borne(record: RecordSubject, k: int) -> list[Certificate]:
@@ -197,6 +228,15 @@ _LISTED = (
         _u_rank,
         _from_data(INPUT),
         _u_borne,
+        windowed=True,
+    ),
+    Quantity(
+        "y_rank",
+        Kind.INTEGER,
+        "the rank of the Hankel matrix of y with s block rows; 0 beyond N",
+        _y_rank,
+        _from_data(OUTPUT),
+        _y_borne,
         windowed=True,
     ),
     Quantity(

@@ -37,8 +37,9 @@ class Kind(StrEnum):
 class Quantity:
     """A name that claims may use. A `windowed` one is a function of a number of samples s >= 0, and the functions here take s too.
 
-    `meaning` says in words what it is; `only_over_Q` marks what asks for the unit circle. `certificates` makes, of a subject (and s), what
-    the checker accepts and what implies the value; it is None where no kind of certificate does.
+    `meaning` says in words what it is; `circle` marks what asks for the unit circle, over Q or a number field with a chosen root.
+    `certificates` makes, of a subject (and s), what the checker accepts and what implies the value; it is None where no kind of certificate
+    does.
     """
 
     name: str
@@ -48,7 +49,7 @@ class Quantity:
     from_ranks: Callable[..., Any]
     certificates: Certifier | None
     windowed: bool = False
-    only_over_Q: bool = False
+    circle: bool = False
 
 
 @cache

@@ -3,7 +3,7 @@
 A zero is a q at which P(q) has less than its normal rank, or infinity. The rank is n + rank [F; G] at a q where no fault and no state are
 lost, and never more, so that P(q) has that rank for every q of a set iff the normal rank of C (qI - A)^-1 F + G is rank [F; G] and no zero
 lies in the set; for the whole plane this says that V* = 0 ([TSH01] 7.5). Whether zeros lie inside the unit circle is decided on the
-coefficients of their polynomial ([S17]), so that it is asked over Q alone.
+coefficients of their polynomial ([S17]), over Q and over a number field with a chosen root.
 """
 
 from __future__ import annotations
@@ -13,9 +13,10 @@ from itertools import combinations
 
 from flint import fmpq, fmpq_poly
 
+from ...exact.algebra.embeddings import inside_the_circle, stable_there
 from ...exact.algebra.matrices import rank, stacked
-from ...exact.algebra.polynomials import Poly, interpolate
-from ...exact.algebra.stability import is_schur, is_stable
+from ...exact.algebra.polynomials import interpolate
+from ...exact.algebra.stability import is_schur
 from . import certified
 from .ranks import CHARACTERISTIC, MINORS, Ranks
 from .registry import Kind, Quantity
@@ -39,8 +40,8 @@ def choices(n: int, m: int, p: int, r: int) -> list[tuple[tuple[int, ...], tuple
     return [(rows, columns) for rows in combinations(range(n + p), n + r) for columns in combinations(range(n + m), n + r)]
 
 
-def _inside(polynomial: Poly) -> bool:
-    return is_schur([Fraction(int(c.p), int(c.q)) for c in map(fmpq, polynomial)])
+def _inside(subject: Subject) -> bool:
+    return inside_the_circle(subject.zero_polynomial, subject.system.field)
 
 
 def _full(subject: Subject) -> bool:
@@ -89,19 +90,19 @@ QUANTITIES = (
         "minimum_phase",
         Kind.WORD,
         "every finite zero lies inside the unit circle",
-        lambda x: _inside(x.zero_polynomial),
+        lambda x: _inside(x),
         lambda r: r.finite_zeros == 0 or is_schur(zero_polynomial(r)),
         None,
-        only_over_Q=True,
+        circle=True,
     ),
     Quantity(
         "strongly_detectable",
         Kind.WORD,
         "rank P(z) = n + rank [F; G] for every z with |z| >= 1",
-        lambda x: _full(x) and _inside(x.zero_polynomial),
+        lambda x: _full(x) and _inside(x),
         lambda r: _full_by_ranks(r) and (r.finite_zeros == 0 or is_schur(zero_polynomial(r))),
         None,
-        only_over_Q=True,
+        circle=True,
     ),
     Quantity(
         "strongly_observable",
@@ -115,9 +116,9 @@ QUANTITIES = (
         "stable",
         Kind.WORD,
         "every eigenvalue of A lies inside the unit circle",
-        lambda x: is_stable(x.system.A),
+        lambda x: stable_there(x.system.A),
         lambda r: is_schur(r.table(CHARACTERISTIC)),
         certified.stable,
-        only_over_Q=True,
+        circle=True,
     ),
 )

@@ -93,7 +93,7 @@ def one_at_a_time(box: Box, hypothesis: str, columns: Sequence[str]) -> dict[tup
     ],
 )
 def test_the_table_is_what_one_system_at_a_time_says(bounds: dict[str, Any], prime: int | None, hypothesis: str) -> None:
-    box = make_box(bounds, prime)
+    box = make_box(bounds, Rationals() if prime is None else PrimeField(prime))
     nodes = [read(one, Kind.INTEGER) for one in COLUMNS]
     table = tables.tabulate(box, [read(hypothesis)], nodes, most=10**9, jobs=1, progress=silent)
     found = {row.values: (row.systems, row.system) for row in table.rows if row.in_box}
@@ -105,14 +105,14 @@ def test_the_table_is_what_one_system_at_a_time_says(bounds: dict[str, Any], pri
 def test_what_is_outside_the_box_is_as_exact_functions_say() -> None:
     nodes = [read(one, Kind.INTEGER) for one in COLUMNS]
     table = tables.tabulate(
-        make_box({"total": 4, "n": [1, 2], "m": [1, 1]}, None), [read("left_invertible")], nodes, most=10**9, jobs=1, progress=silent
+        make_box({"total": 4, "n": [1, 2], "m": [1, 1]}, Rationals()), [read("left_invertible")], nodes, most=10**9, jobs=1, progress=silent
     )
     outside = [row for row in table.rows if not row.in_box]
     assert len(outside) > 20 and table.sums_met > 3 and table.corpus_met > 50
     for row in outside[:: 5 * every()]:
         exactly = Exactly({"": Subject(row.system)})
         assert tuple(evaluate(node, exactly) for node in nodes) == row.values and evaluate(read("left_invertible"), exactly)
-    listed = {one.subject.system for one in known_systems(None)}
+    listed = {one.subject.system for one in known_systems(Rationals())}
     assert sum(row.others for row in table.rows) == table.sums_met + table.drawn_met + table.corpus_met + table.adversary_met
     assert table.drawn_met >= 100
     assert any(row.system not in listed for row in outside)
@@ -121,7 +121,7 @@ def test_what_is_outside_the_box_is_as_exact_functions_say() -> None:
 def test_a_direct_sum_is_one() -> None:
     one = ResidualSystem.of([[1]], [[2]], [[3]], [[4]])
     other = ResidualSystem.of([[5, 0], [6, 7]], [[8], [9]], [[1, 2]], [[3]])
-    batch = tables._direct_sums([(one, other)], None)
+    batch = tables._direct_sums([(one, other)], Box())
     assert batch.system(0) == ResidualSystem.of(
         [[1, 0, 0], [0, 5, 0], [0, 6, 7]], [[2, 0], [0, 8], [0, 9]], [[3, 0, 0], [0, 1, 2]], [[4, 0], [0, 3]]
     )

@@ -18,7 +18,6 @@ from faultspace.base.errors import InvalidInput
 from faultspace.cli.command_line import main
 from faultspace.exact import Matrix, ResidualSystem
 from faultspace.packaged_examples import content
-from faultspace.proofs.brought.boxes import height
 from faultspace.proofs.brought.choice_boxes import ChoiceBox
 from faultspace.proofs.brought.claim_files import read_claims
 from faultspace.proofs.brought.claiming import decide_claims, explain
@@ -28,6 +27,7 @@ from faultspace.proofs.language.by_batches import Table, true_of
 from faultspace.proofs.language.evaluating import evaluate, exactly
 from faultspace.proofs.language.grammar import read
 from faultspace.proofs.language.vocabularies import CHOICE, VOCABULARIES
+from faultspace.proofs.quantities.blocks import height
 from faultspace.proofs.quantities.cases import Choice
 from faultspace.proofs.quantities.choices import OF_A_CHOICE
 from faultspace.proofs.trust.structure_certificates import accept

@@ -179,6 +179,8 @@ UNBOUNDED = [
     "any(solutions(s - 4) == n_z for s in windows(4))",
     "least(s for s in windows(7) if solutions(s - 7) < n + p) == lag + 8",
     "any(rank_T(s - 3) > 0 for s in windows(3))",
+    "any(rank_T(n + s - 3 - n) > 0 and rank_OT(2 + (s + 1)) != 4 for s in windows(3))",
+    "least(s for s in windows(7) if solutions(1 + s - (n + 8) + n) < n + p) == lag + 8",
     "all(implies(len(left_minimal_indices) > 0, rank_OT(s) >= left_minimal_indices[0] or s < 9) for s in windows(0))",
 ]
 FAR = 80

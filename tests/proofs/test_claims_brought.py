@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 import time
 import tomllib
 from collections.abc import Iterator
@@ -19,22 +18,18 @@ import pytest
 
 import faultspace as fs
 from faultspace.base.errors import InvalidInput
-from faultspace.base.progress import silent
 from faultspace.exact import ResidualSystem
 from faultspace.packaged_examples import CLAIMS, content
-from faultspace.proofs.brought import boxes, deciding, known_systems
+from faultspace.proofs.brought import boxes
 from faultspace.proofs.brought.answers import ClaimAnswer, Counterexample
-from faultspace.proofs.brought.boxes import Box, height, stretches
+from faultspace.proofs.brought.boxes import Box, stretches
 from faultspace.proofs.brought.claim_files import read_claims
-from faultspace.proofs.brought.claiming import decide_claims, explain
-from faultspace.proofs.brought.claims import Answered, Claim, make_claim
+from faultspace.proofs.brought.claims import Answered, make_claim
 from faultspace.proofs.brought.known_cases import smaller
 from faultspace.proofs.language.evaluating import Exactly, evaluate
+from faultspace.proofs.quantities.blocks import height
 from faultspace.proofs.quantities.registry import Subject, quantities
 from faultspace.proofs.trust.structure_certificates import accept
-from faultspace.proofs.verdict.ledger import load
-from faultspace.proofs.verdict.verdicts import Verdict
-from tests.thorough import every
 
 SMALL = {"total": 4}
 
@@ -327,7 +322,7 @@ BAD = [
     ("[claim.x]\nhypotheses = 'n == 1'\nconclusion = 'n == 1'", "expected a list of at most"),
     ("[claim.x]\nconclusion = 'n == 1'\nabout = 'pairs'", "line 3: claim.x.about: got 'pairs'; the nearest is pair"),
     ("[claim.x]\nconclusion = 'n == 1'\nabout = 'recrod'", "line 3: claim.x.about: got 'recrod'; the nearest is record"),
-    ("[claim.x]\nconclusion = 'n == 1'\nfields = ['Q(a)']", "number fields are not searched yet"),
+    ("[claim.x]\nconclusion = 'n == 1'\nfields = ['Q(a)']", 'expected "Q", "GF(q)"'),
     ("[claim.x]\nconclusion = 'n == 1'\nfields = ['GF(4)']", "with a prime q"),
     ("[claim.x]\nconclusion = 'n == 1'\nfields = ['Q', 'Q']", "none twice"),
     ("[claim.x]\nconclusion = 'n == 1'\nfields = []", "expected a list such as"),
@@ -398,76 +393,3 @@ def test_the_schema_refuses_what_has_the_wrong_form() -> None:
     for text, words in BAD:
         if not any(one in words for one in told_by_words_alone) and "got 'm'" not in words:
             assert list(checker.iter_errors(tomllib.loads(text))), text
-
-
-# -- the examples and the ledger ---------------------------------------------------------------------------------------
-
-
-def small_box(claim: Claim) -> Claim:
-    """Return the claim with a box of at most n + m + p = 4."""
-    return replace(claim, boxes={name: replace(box, total=min(box.total, 4)) for name, box in claim.boxes.items()})
-
-
-EXAMPLES = {one.id: one for one in read_claims(content("example:claims").decode())}
-LEDGER = {one.id: one for one in read_claims(content("example:ledger").decode())}
-
-
-LITERATURE = {one.id: one for one in read_claims(content("example:literature").decode())}
-PAPERS = {one.id: one for one in read_claims(content("example:papers").decode())}
-
-
-def test_there_are_ten_examples_and_forty_statements() -> None:
-    assert len(EXAMPLES) == 10 and len(LITERATURE) >= 80
-    assert all(one.source and one.statement and one.expected for one in LITERATURE.values())
-    assert {one.expected["Q"] for one in LITERATURE.values()} == {Answered.REFUTED, Answered.NOT_REFUTED, Answered.PROVED}
-
-
-@pytest.mark.parametrize("name", list(LITERATURE)[:: every()] + list(PAPERS))
-def test_a_statement_of_the_field_gets_its_verdict(name: str) -> None:
-    """What is known to be true is not refuted, and what is known to be false is."""
-    claim = (LITERATURE | PAPERS)[name]
-    box = claim.boxes["Q"]
-    (answer,) = deciding.decide(replace(claim, boxes={"Q": replace(box, n=(1, 2))}), ablation=False, most=10**9, jobs=1, progress=silent)
-    assert answer.as_expected, answer.title
-
-
-@pytest.mark.parametrize("name", list(EXAMPLES))
-def test_an_example_is_answered_as_expected(name: str) -> None:
-    answers = decide_claims([small_box(EXAMPLES[name])])
-    assert answers.as_expected, answers.title
-    for one in answers.certificates:
-        accept(one)
-
-
-def ledger_verdicts() -> dict[str, Verdict]:
-    return {f"{claim.id}--{reading.id}": Verdict(reading.expected) for claim in load() for reading in claim.readings}
-
-
-@pytest.mark.parametrize("name", list(LEDGER)[:: every()])
-def test_a_claim_of_the_ledger_gets_its_verdict(name: str) -> None:
-    expected = ledger_verdicts()[name]
-    refuted = expected == Verdict.REFUTED
-    assert refuted or expected in (Verdict.CERTIFIED, Verdict.PROVED)
-    claim = LEDGER[name]
-    assert dict(claim.expected) == {"Q": Answered.REFUTED if refuted else Answered.NOT_REFUTED}
-    smaller_box = replace(claim.boxes["Q"], n=(1, 2))
-    (answer,) = deciding.decide(replace(claim, boxes={"Q": smaller_box}), ablation=False, most=10**9, jobs=1, progress=silent)
-    assert answer.as_expected, answer.title
-
-
-def test_the_known_systems_are_many_and_of_every_kind() -> None:
-    for prime in (None, 2, 5):
-        listed = known_systems.known_systems(prime)
-        assert len(listed) > 300 and {one.origin for one in listed} == {"corpus", "adversary"}
-        assert {one.subject.system.field for one in listed} == {listed[0].subject.system.field}
-    sizes = {(one.subject.system.n, one.subject.system.m, one.subject.system.p) for one in known_systems.known_systems(None)}
-    assert {0, 1, 2, 3} <= {n for n, _, _ in sizes} and 0 in {m for _, m, _ in sizes} and 0 in {p for _, _, p in sizes}
-
-
-def test_explaining_shows_every_part() -> None:
-    claim = EXAMPLES["counting"]
-    told = [(text, value) for _, text, value in explain(claim, fs.System(A=[["1/2"]], F=[["-3/2"]], C=[[1]], G=[[1]]))]
-    assert ("zeta", "1") in told and ("left_minimal_indices", "()") in told
-    assert any(re.fullmatch(r"gap\(s\), s = 0", text) for text, _ in told)
-    one = make_claim("x", {"conclusion": "left_minimal_indices[0] == 1"})
-    assert any("no value" in value for _, _, value in explain(one, fs.System(A=[[1]], F=[[1]], C=[[1]], G=[[1]])))

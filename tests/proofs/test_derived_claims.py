@@ -24,12 +24,13 @@ from faultspace.proofs.brought.trying import Question, search
 from faultspace.proofs.evidence.corpus import CORPUS, examine
 from faultspace.proofs.evidence.families import adversarial
 from faultspace.proofs.language.grammar import read
+from faultspace.proofs.language.vocabularies import SYSTEM
 from faultspace.proofs.rocq.locks import held
 from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.verdict.ledger import IN_LANGUAGE, load
 from faultspace.proofs.verdict.verdicts import Verdict
 from faultspace.proofs.verdict.workbench import Workbench
-from tests.thorough import every
+from tests.thorough import THOROUGH, every
 
 
 def proved(conclusion: str, *hypotheses: str) -> tuple[str, ...] | None:
@@ -105,7 +106,7 @@ def test_what_only_looks_like_a_theorem_is_not_proved(conclusion: str, hypothese
 
 def test_a_claim_of_the_ledger_is_proved_just_where_rocq_has_proved_it() -> None:
     verdicts = {f"{one.id}--{reading.id}": reading.proved for one in load() for reading in one.readings}
-    listed = list(readings().values())
+    listed = [one for one in readings().values() if one.about == SYSTEM]  # the theorems in the language are about single systems
     chosen = listed[:: 1 if every() == 1 else 10]
     assert len(listed) == 30
     for one in chosen:
@@ -252,8 +253,9 @@ def attack(seed: int, count: int) -> tuple[int, list[str]]:
 
 @pytest.mark.slow
 def test_many_changed_claims_that_are_derived_are_not_refuted() -> None:
-    followed, wrong = attack(seed=6, count=400)
-    assert not wrong and followed > 60
+    """Each takes a second of processor time or two, nearly all of it for seeing that nothing is derived; some quarter of them is."""
+    followed, wrong = attack(seed=6, count=400 if THOROUGH else 80)
+    assert not wrong and followed > (60 if THOROUGH else 12)
 
 
 @pytest.mark.slow

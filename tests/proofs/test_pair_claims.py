@@ -19,7 +19,7 @@ from faultspace.base.errors import InvalidInput
 from faultspace.cli.command_line import main
 from faultspace.exact import ResidualSystem
 from faultspace.packaged_examples import content
-from faultspace.proofs.brought.boxes import Sizes, height
+from faultspace.proofs.brought.boxes import Sizes
 from faultspace.proofs.brought.case_files import fitting, read_case
 from faultspace.proofs.brought.claim_files import read_claims
 from faultspace.proofs.brought.claiming import decide_claims, explain
@@ -31,6 +31,7 @@ from faultspace.proofs.language.by_batches import Table, true_of
 from faultspace.proofs.language.evaluating import evaluate, exactly
 from faultspace.proofs.language.grammar import read
 from faultspace.proofs.language.vocabularies import ONE_A_AND_C, PAIR, VOCABULARIES
+from faultspace.proofs.quantities.blocks import height
 from faultspace.proofs.quantities.cases import Pair
 from faultspace.proofs.quantities.pairs import OF_A_PAIR, OF_ONE_A_AND_C, Pairs
 from faultspace.proofs.quantities.ranks import Numbers

@@ -95,7 +95,7 @@ def disagreements(quantity: Quantity, prime: int | None) -> list[str]:
     return wrong
 
 
-ASKED = [(name, prime) for name, one in quantities().items() for prime in (None, 2) if prime is None or not one.only_over_Q]
+ASKED = [(name, prime) for name, one in quantities().items() for prime in (None, 2) if prime is None or not one.circle]
 
 
 @pytest.mark.parametrize(("name", "prime"), ASKED[:: every()], ids=str)
@@ -170,7 +170,7 @@ def test_the_checker_accepts_the_certificates_of_a_quantity(name: str) -> None:
     quantity, accepted = quantities()[name], 0
     assert quantity.certificates is not None
     for system in SMALL:
-        if quantity.only_over_Q and system.field != QQ:
+        if quantity.circle and system.field != QQ:
             continue
         subject = Subject(system)
         try:

@@ -18,7 +18,6 @@ from faultspace.cli.command_line import main
 from faultspace.exact import Matrix, ResidualSystem
 from faultspace.exact.system.systems import FaultySystem
 from faultspace.packaged_examples import content
-from faultspace.proofs.brought.boxes import height
 from faultspace.proofs.brought.claim_files import read_claims
 from faultspace.proofs.brought.claiming import decide_claims
 from faultspace.proofs.brought.claims import Answered, make_claim
@@ -28,6 +27,7 @@ from faultspace.proofs.language.by_batches import Table, true_of, values_of
 from faultspace.proofs.language.evaluating import evaluate, exactly
 from faultspace.proofs.language.grammar import read
 from faultspace.proofs.language.vocabularies import RECORD, VOCABULARIES
+from faultspace.proofs.quantities.blocks import height
 from faultspace.proofs.quantities.cases import Record
 from faultspace.proofs.quantities.records import OF_A_RECORD
 from faultspace.proofs.quantities.registry import Kind
@@ -69,6 +69,7 @@ def by_definition(record: Record) -> dict[str, Any]:
         "N": samples,
         "nu": system.nu,
         "u_rank": u_rank,
+        "y_rank": ranks(outputs, system.p),
         "w_rank": ranks(both, system.nu + system.p),
         "x_rank": [rank(behaviours.excitation(slow, x0, u, k)) if k <= samples else 0 for k in range(samples + 3)],
         "exciting": [k <= samples and u_rank[k] == system.nu * k for k in range(samples + 3)],
