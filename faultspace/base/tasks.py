@@ -1,6 +1,7 @@
 """This does many tasks, each to its end, whatever becomes of the processes that work on them.
 
     as_they_come   the number and the result of each task, as soon as it is done
+    Tasks          what has the arguments of each task by its number, and need not hold them all
     Died           the result of a task whose process ended each time that it was tried
     TRIES          so often is a task tried alone before it is given up
 
@@ -11,14 +12,14 @@ are tried again one after another, which shows it, and then the others go on in 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
 from itertools import islice
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import joblib
 
@@ -35,6 +36,16 @@ AHEAD = 4
 LOOK = 1.0
 
 
+class Tasks(Protocol):
+    """The arguments of each task by its number, as a list has them; what makes them when they are asked for holds no more of them."""
+
+    def __len__(self) -> int:
+        """Return how many tasks there are."""
+
+    def __getitem__(self, number: int, /) -> Task:
+        """Return the arguments of the task with this number."""
+
+
 @dataclass(frozen=True)
 class Died:
     """No result: `reason` says on one line what became of the processes that worked on the task."""
@@ -42,9 +53,7 @@ class Died:
     reason: str
 
 
-def as_they_come(
-    function: Callable[..., Result], tasks: Sequence[Task], *, count: int, cluster: str | None
-) -> Iterator[tuple[int, Result | Died]]:
+def as_they_come(function: Callable[..., Result], tasks: Tasks, *, count: int, cluster: str | None) -> Iterator[tuple[int, Result | Died]]:
     """Yield (k, function(*tasks[k])) for every k, in the order in which they are done, by `count` processes (one: by this process), or by
     the workers of the Dask scheduler at the address `cluster`.
 
@@ -54,11 +63,11 @@ def as_they_come(
     if cluster is not None:
         return _by_cluster(function, tasks, cluster)
     if count <= 1:
-        return ((k, function(*task)) for k, task in enumerate(tasks))
+        return ((k, function(*tasks[k])) for k in range(len(tasks)))
     return _by_processes(function, tasks, count)
 
 
-def _by_processes(function: Callable[..., Result], tasks: Sequence[Task], count: int) -> Iterator[tuple[int, Result | Died]]:
+def _by_processes(function: Callable[..., Result], tasks: Tasks, count: int) -> Iterator[tuple[int, Result | Died]]:
     waiting = deque(range(len(tasks)))
     while waiting:
         begun = set[int]()
@@ -69,7 +78,7 @@ def _by_processes(function: Callable[..., Result], tasks: Sequence[Task], count:
                 yield from _alone(function, tasks, k, count)
 
 
-def _alone(function: Callable[..., Result], tasks: Sequence[Task], k: int, count: int) -> Iterator[tuple[int, Result | Died]]:
+def _alone(function: Callable[..., Result], tasks: Tasks, k: int, count: int) -> Iterator[tuple[int, Result | Died]]:
     for _ in range(TRIES):
         with suppress(BrokenProcessPool):
             yield from _as_long_as_they_live(function, tasks, deque([k]), set(), count)
@@ -78,7 +87,7 @@ def _alone(function: Callable[..., Result], tasks: Sequence[Task], k: int, count
 
 
 def _as_long_as_they_live(
-    function: Callable[..., Result], tasks: Sequence[Task], waiting: deque[int], begun: set[int], count: int
+    function: Callable[..., Result], tasks: Tasks, waiting: deque[int], begun: set[int], count: int
 ) -> Iterator[tuple[int, Result]]:
     """Take numbers of tasks from `waiting` and yield results; `begun` holds those that are under way. Raises BrokenProcessPool."""
 
@@ -99,7 +108,7 @@ def _numbered(function: Callable[..., Result], k: int, task: Task) -> tuple[int,
     return k, function(*task)
 
 
-def _by_cluster(function: Callable[..., Result], tasks: Sequence[Task], address: str) -> Iterator[tuple[int, Result | Died]]:
+def _by_cluster(function: Callable[..., Result], tasks: Tasks, address: str) -> Iterator[tuple[int, Result | Died]]:
     with workers.client(address) as client:
         distributed: Any = import_module("distributed")
         waiting = iter(range(len(tasks)))
