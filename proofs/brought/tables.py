@@ -17,12 +17,11 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import groupby
 
-import joblib
 import numpy as np
 
 from ...base.errors import InvalidInput
 from ...base.progress import Progress
-from ...base.workers import pool
+from ...base.tasks import ordered
 from ...exact.system.systems import ResidualSystem
 from ..language.by_batches import Table as Answers
 from ..language.by_batches import UndefinedAt, Values, true_of, values_of
@@ -157,8 +156,7 @@ def _merge(rows: dict[Values, Row], new: Row) -> None:
 def _share(asked: _Asked, number: int, left: int, jobs: int, tell: Callable[[int], None]) -> list[_Part]:
     if jobs == 1 or asked.box.count(*asked.box.sizes()[number]) < WORTH_SHARING:
         return [_of_sizes(asked, number, left, 0, 1, tell)]
-    with pool(jobs, None) as parallel:
-        return list(parallel(joblib.delayed(_of_sizes)(asked, number, left // jobs, k, jobs, None) for k in range(jobs)))
+    return list(ordered(_of_sizes, [(asked, number, left // jobs, k, jobs, None) for k in range(jobs)], count=jobs))
 
 
 def _of_sizes(asked: _Asked, number: int, left: int, mine: int, of: int, tell: Callable[[int], None] | None) -> _Part:
