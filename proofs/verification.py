@@ -89,7 +89,7 @@ def verify(
             report(f"{counted(kept.count, 'answer')} of an earlier run", 0, total)
         machine = _theorems(chosen, report)
         attacks = attacking({claim.id for claim in chosen}, effort, jobs, report, known=kept.attack, on_record=kept.note_attack)
-        tasks = [*checks, *(Without(one.name) for one in experiments)]
+        tasks: list[Check | Without] = [*checks, *(Without(one.name) for one in experiments)]
         answers = decided(bench, tasks, elsewhere=scheduler is not None, kept=kept)
     results: list[ClaimResult] = []
     for claim in chosen:

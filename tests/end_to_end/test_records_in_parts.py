@@ -29,7 +29,7 @@ arrow = pytest.importorskip("pyarrow", reason="Parquet is read by pyarrow, which
 parquet = pytest.importorskip("pyarrow.parquet")
 
 CHANNELS = ("--inputs", "valve,pump", "--outputs", "level1,level2,flow")
-CHOSEN = {"inputs": made.INPUTS, "outputs": made.OUTPUTS}
+CHOSEN: dict[str, Any] = {"inputs": made.INPUTS, "outputs": made.OUTPUTS}
 N = 1200
 
 
