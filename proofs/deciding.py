@@ -19,12 +19,12 @@ from tempfile import TemporaryDirectory
 from threading import local
 from typing import Any
 
-from joblib import Parallel, delayed
-
 from ..base.progress import silent
+from ..base.tasks import Once, ordered, processes
 from .brought.readings import decide_reading
 from .evidence.material import Carried, Folder, Material, Shelf, Wanted
 from .hypotheses import ablations
+from .kept_answers import KeptAnswers
 from .trust.checker import Malformed, Rejected
 from .verdict.ablation import ablate
 from .verdict.ledger import IN_LANGUAGE, expected_without
@@ -88,39 +88,45 @@ class Answer:
     seconds: float
 
 
-def decided(bench: Workbench, tasks: Sequence[Task], *, elsewhere: bool = False) -> dict[Task, Answer]:
+def decided(bench: Workbench, tasks: Sequence[Task], *, elsewhere: bool = False, kept: KeptAnswers | None = None) -> dict[Task, Answer]:
     """Return what each task comes to. `bench` then has the material that was made.
 
-    `elsewhere` says that tasks may be done on other machines, which do not see a folder of this one.
+    `elsewhere` says that tasks may be done on other machines, which do not see a folder of this one. What is `kept` is not done again, and
+    what is done is kept as it comes.
     """
     try:
         if elsewhere:
-            return _in_rounds(bench, tasks, Carried())
+            return _in_rounds(bench, tasks, Carried(), kept)
         with TemporaryDirectory(prefix="faultspace-") as folder:
-            return _in_rounds(bench, tasks, Folder(Path(folder)))
+            return _in_rounds(bench, tasks, Folder(Path(folder)), kept)
     finally:
         vars(_mine).clear()  # where one process does it all, it is this one
 
 
-def _in_rounds(bench: Workbench, tasks: Sequence[Task], shelf: Shelf) -> dict[Task, Answer]:
-    answers: dict[Task, Answer] = {}
+def _in_rounds(bench: Workbench, tasks: Sequence[Task], shelf: Shelf, kept: KeptAnswers | None = None) -> dict[Task, Answer]:
+    kept = kept or KeptAnswers(bench.effort)
+    answers = {task: Answer(*found) for task in tasks if (found := kept.found(str(task))) is not None}
     needed: dict[Task, set[str]] = defaultdict(set)
     # The claims without their hypotheses take longest, so that they come first.
-    waiting = sorted(tasks, key=lambda task: isinstance(task, Check))
+    waiting = sorted((task for task in tasks if task not in answers), key=lambda task: isinstance(task, Check))
     while waiting:
         wanted: dict[str, Material] = {}
         later = []
-        calls = [delayed(_tried)(task, bench.effort, shelf.part(needed[task])) for task in waiting]
-        stream = Parallel(n_jobs=bench.jobs, return_as="generator")(calls)
+        parts = [shelf.part(needed[task]) for task in waiting]
+        once = {id(part): Once(part) for part in parts}
+        calls = [(task, bench.effort, once[id(part)]) for task, part in zip(waiting, parts, strict=True)]
+        stream = ordered(_tried, calls, count=processes(bench.jobs))
         for task, answer in zip(waiting, stream, strict=True):
             if isinstance(answer, Answer):
                 answers[task] = answer
+                kept.note(str(task), answer.found, answer.seconds)
                 bench.progress(str(task), len(answers), len(tasks))
             else:
                 wanted |= {kind.name: kind for kind in answer}
                 needed[task].update(kind.name for kind in answer)
                 later.append(task)
         bench.make([kind for name, kind in wanted.items() if name not in shelf], shelf)
+        kept.note_corpus(bench.corpus_in_words)
         waiting = later
     return answers
 

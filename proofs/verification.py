@@ -5,18 +5,20 @@ verify     the report of a run over all claims, or those named
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Collection, Mapping, Sequence
-from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 from ..base.errors import InvalidInput, shorten
 from ..base.progress import Progress, silent
 from ..base.sheets import counted
-from ..base.workers import pool
+from ..base.tasks import shared
 from .adversary.attacking import attacking, of_reading, of_row
 from .deciding import Check, Without, decided
 from .hypotheses import ablations
+from .kept_answers import keeping
 from .rocq.build import BrokenTheory, NoRocq, NotProved
 from .rocq.locks import held
 from .rocq.sources import sources
@@ -36,19 +38,22 @@ def verify(
     effort: str = "quick",
     jobs: int = -1,
     scheduler: str | None = None,
+    resume: str | os.PathLike[str] | None = None,
     on_progress: Progress | None = None,
 ) -> Report:
     """Decide every claim of the ledger, or those with the ids `claims`, now: each reading gets a verdict and the evidence it rests on.
 
     `claims` is a list of ids or one id, None for all; `effort` is "quick" or "full", `jobs` a number of processes (-1: one for each core),
     `scheduler` the address of a Dask scheduler, whose workers do the work then (they need this package in the same version),
-    and `on_progress(stage, done, total)` hears how far the run is. The Report has `claims`, `hypotheses`, `as_expected` (whether every
-    verdict is the one that the ledger expects), `certificates()`, `summary()` and `plot()`. Most claims take tens of seconds, because the
-    systems and certificates that their readings rest on are made anew; the one of the example below needs less than a second. The claims
+    `resume` is a file in which each answer is kept as it comes, so that the same call goes on where it was stopped (its certificates are
+    checked once more), and `on_progress(stage, done, total)` hears how far the run is. The Report has `claims`, `hypotheses`,
+    `as_expected` (whether every verdict is the one that the ledger expects), `certificates()`, `summary()` and `plot()`. Most claims take
+    tens of seconds, because the systems and certificates that their readings rest on are made anew; the one of the example below needs
+    less than a second. The claims
     are those of [G25].
 
     Raises InvalidInput for an unknown claim or effort, an empty list, a number of processes that is neither -1 nor positive, and one
-    beside a scheduler; InvalidData for a cluster that cannot be used.
+    beside a scheduler, and for a file that is not one of these; InvalidData for a cluster that cannot be used or is lost.
 
     >>> import faultspace as fs
     >>> report = fs.verify(["example-v"], jobs=1)
@@ -79,10 +84,13 @@ def verify(
     total = sum(len(claim.readings) for claim in chosen)
     experiments = [one for one in ablations() if one.claim in {claim.id for claim in chosen}]
     checks = dict.fromkeys(Check(reading.check) for claim in chosen for reading in claim.readings)  # several readings come down to one
-    with nullcontext() if scheduler is None else pool(jobs, scheduler):
+    with shared(scheduler), keeping(None if resume is None else Path(resume), effort) as kept:
+        if kept.count:
+            report(f"{counted(kept.count, 'answer')} of an earlier run", 0, total)
         machine = _theorems(chosen, report)
-        attacks = attacking({claim.id for claim in chosen}, effort, jobs, report)
-        answers = decided(bench, [*checks, *(Without(one.name) for one in experiments)], elsewhere=scheduler is not None)
+        attacks = attacking({claim.id for claim in chosen}, effort, jobs, report, known=kept.attack, on_record=kept.note_attack)
+        tasks: list[Check | Without] = [*checks, *(Without(one.name) for one in experiments)]
+        answers = decided(bench, tasks, elsewhere=scheduler is not None, kept=kept)
     results: list[ClaimResult] = []
     for claim in chosen:
         readings = []
@@ -97,7 +105,7 @@ def verify(
     found = [row for one in experiments for row in answers[Without(one.name)].found]
     rows = tuple(of_row(_row_with_theorems(row, machine), attacks) for row in found)
     report("done", total, total)
-    return Report(effort, tuple(results), rows, bench.corpus_in_words, time.perf_counter() - started, machine.message)
+    return Report(effort, tuple(results), rows, kept.corpus, time.perf_counter() - started, machine.message)
 
 
 @dataclass(frozen=True)

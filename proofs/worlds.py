@@ -13,21 +13,21 @@ by the workers of a Dask cluster. Exit code 0: no counterexample; 1: there is on
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 import time
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import product
 from pathlib import Path
 from typing import Any
 
 import joblib
 
-from ..base.errors import InvalidData
+from ..base.errors import InvalidData, InvalidInput
+from ..base.kept_lines import KeptLines, keeping_lines
 from ..base.messages import say
 from ..base.progress import silent, working
-from ..base.workers import pool
+from ..base.tasks import Died, as_they_come, shared
 from .deciding import Check
 from .evidence.corpus import CORPUS, examine
 from .evidence.material import Folder
@@ -148,17 +148,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     everything = list(units(given.n, given.p, given.m))
     chosen = everything[:: given.part]
     try:
-        finished = _kept(given.out)
-    except (ValueError, KeyError, TypeError, OSError) as error:
-        parser.error(f"--out: {given.out} is no file of finished units ({error}); name another")
-    try:
-        waiting = [unit for unit in chosen if unit not in finished]
-        for unit, line in _run(waiting, given.out, given.jobs or joblib.cpu_count(), given.scheduler):
-            finished[unit] = line
-    except InvalidData as error:
+        with shared(given.scheduler), keeping_lines(given.out, FORMAT, _good, "--out") as kept:
+            finished = {_unit(line): dict(line) for line in kept.lines}
+            waiting = [unit for unit in chosen if unit not in finished]
+            for unit, line in _run(waiting, kept, given.jobs or joblib.cpu_count(), given.scheduler):
+                finished[unit] = line
+    except InvalidInput as error:
         parser.error(str(error))
-    except OSError as error:
-        parser.error(f"--out: {given.out} cannot be written ({error.strerror}); name another")
     except KeyboardInterrupt:
         say(f"stopped; {given.out} has what is finished, and the same command goes on from there")
         return 130
@@ -170,38 +166,30 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 1 if failing else 0
 
 
-def _run(waiting: Sequence[Unit], out: Path, jobs: int, scheduler: str | None) -> Iterator[tuple[Unit, Found]]:
+def _run(waiting: Sequence[Unit], kept: KeptLines, jobs: int, scheduler: str | None) -> Iterator[tuple[Unit, Found]]:
     """Yield each unit with its line, which the file has by then."""
     if not waiting:
         return
     shares = [orbit_count(*unit[:3]) / len(pairs(unit[0], unit[2])) for unit in waiting]
-    with pool(jobs, scheduler) as parallel, out.open("a", encoding="utf-8") as file, working("going through the world") as tell:
+    with working("going through the world") as tell:
         started, done, total = time.monotonic(), 0.0, sum(shares)
-        stream = parallel(joblib.delayed(examined)(unit) for unit in waiting)
-        for number, (unit, share, line) in enumerate(zip(waiting, shares, stream, strict=True), 1):
-            file.write(json.dumps({"format": FORMAT} | line) + "\n")
-            file.flush()
+        for number, (k, line) in enumerate(as_they_come(examined, [(unit,) for unit in waiting], count=jobs, cluster=scheduler), 1):
+            unit = waiting[k]
+            if isinstance(line, Died):
+                raise InvalidData(f"the unit n={unit[0]} p={unit[1]} m={unit[2]} pair {unit[3]} came to no end: {line.reason}")
+            kept.note(**line)
             yield unit, line
-            done += share
+            done += shares[k]
             left = (time.monotonic() - started) * (total - done) / done
             tell(f"units of n={unit[0]} p={unit[1]} m={unit[2]}", number, len(waiting), left)
 
 
-def _kept(out: Path) -> dict[Unit, Found]:
-    """Return the lines of the file by unit. One that a stop cut short, which can be the last alone, is taken out of it."""
-    if not out.exists():
-        return {}
-    text = out.read_text(encoding="utf-8")
-    whole = text[: text.rfind("\n") + 1]
-    lines = [json.loads(line) for line in whole.splitlines()]
-    for line in lines:
-        if line["format"] != FORMAT:
-            raise ValueError(f"the format is not {FORMAT}")
-        if not all(type(line[key]) in types for key, types in _TYPES.items()):
-            raise ValueError(f"a line has other entries than {', '.join(_TYPES)}")
-    if whole != text:
-        out.write_text(whole, encoding="utf-8")
-    return {(line["n"], line["p"], line["m"], line["pair"]): line for line in lines}
+def _good(line: Mapping[str, Any]) -> bool:
+    return all(type(line[key]) in types for key, types in _TYPES.items())
+
+
+def _unit(line: Mapping[str, Any]) -> Unit:
+    return line["n"], line["p"], line["m"], line["pair"]
 
 
 if __name__ == "__main__":

@@ -1,6 +1,12 @@
 """This does many tasks, each to its end, whatever becomes of the processes that work on them.
 
     as_they_come   the number and the result of each task, as soon as it is done
+    ordered        the results in the order of the tasks, each of which must come to one
+    in_order       the same of tasks that are many and large: by this process, or by the cluster of the Shared that is in force
+    shared         the context in which a Shared is in force
+    processes      how many processes a number of jobs stands for
+    Once           an argument that many tasks have, which is sent to a cluster once
+    Tasks          what has the arguments of each task by its number, and need not hold them all
     Died           the result of a task whose process ended each time that it was tried
     TRIES          so often is a task tried alone before it is given up
 
@@ -10,15 +16,17 @@ are tried again one after another, which shows it, and then the others go on in 
 
 from __future__ import annotations
 
+import warnings
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import suppress
+from contextlib import contextmanager, nullcontext, suppress
+from contextvars import ContextVar
 from dataclasses import dataclass
 from importlib import import_module
 from itertools import islice
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import joblib
 
@@ -31,8 +39,27 @@ Task = tuple[Any, ...]
 TRIES = 2
 # Tasks that each thread of a cluster has before it, so that none of them waits for us.
 AHEAD = 4
+# What a client raises that has no scheduler any more.
+GONE = (OSError, CancelledError, RuntimeError, AttributeError)
 # Seconds between two looks at a cluster from which nothing comes.
 LOOK = 1.0
+
+
+class Tasks(Protocol):
+    """The arguments of each task by its number, as a list has them; what makes them when they are asked for holds no more of them."""
+
+    def __len__(self) -> int:
+        """Return how many tasks there are."""
+
+    def __getitem__(self, number: int, /) -> Task:
+        """Return the arguments of the task with this number."""
+
+
+@dataclass(frozen=True, eq=False)
+class Once:
+    """The task gets the `value` in the place of this."""
+
+    value: Any
 
 
 @dataclass(frozen=True)
@@ -42,9 +69,7 @@ class Died:
     reason: str
 
 
-def as_they_come(
-    function: Callable[..., Result], tasks: Sequence[Task], *, count: int, cluster: str | None
-) -> Iterator[tuple[int, Result | Died]]:
+def as_they_come(function: Callable[..., Result], tasks: Tasks, *, count: int, cluster: str | None) -> Iterator[tuple[int, Result | Died]]:
     """Yield (k, function(*tasks[k])) for every k, in the order in which they are done, by `count` processes (one: by this process), or by
     the workers of the Dask scheduler at the address `cluster`.
 
@@ -54,11 +79,115 @@ def as_they_come(
     if cluster is not None:
         return _by_cluster(function, tasks, cluster)
     if count <= 1:
-        return ((k, function(*task)) for k, task in enumerate(tasks))
+        return ((k, _called(function, tasks[k])) for k in range(len(tasks)))
     return _by_processes(function, tasks, count)
 
 
-def _by_processes(function: Callable[..., Result], tasks: Sequence[Task], count: int) -> Iterator[tuple[int, Result | Died]]:
+def ordered(function: Callable[..., Result], tasks: Tasks, *, count: int) -> Iterator[Result]:
+    """Yield function(*task) for each task, in their order, by `count` processes or by the cluster of the Shared that is in force.
+
+    Raises what `as_they_come` does, and InvalidData for a task whose process ended each time.
+    """
+    cluster = _SHARED.get()
+    came: dict[int, Result] = {}
+    following = 0
+    for k, result in as_they_come(function, tasks, count=count, cluster=None if cluster is None else cluster.address):
+        if isinstance(result, Died):
+            raise InvalidData(f"task {k + 1} of {len(tasks)} came to no end: {result.reason}")
+        came[k] = result
+        while following in came:
+            yield came.pop(following)
+            following += 1
+
+
+def processes(jobs: int) -> int:
+    """Return how many processes `jobs` stands for: -1 for one each core."""
+    return joblib.cpu_count() if jobs == -1 else jobs
+
+
+def _called(function: Callable[..., Result], task: Task) -> Result:
+    return function(*(one.value if isinstance(one, Once) else one for one in task))
+
+
+@dataclass
+class Shared:
+    """The cluster of the Dask scheduler at `address` does what `in_order` is asked for, until it is lost: `lost` says then in words why."""
+
+    address: str
+    client: Any
+    lost: str = ""
+
+
+_SHARED: ContextVar[Shared | None] = ContextVar("shared", default=None)
+
+
+@contextmanager
+def shared(address: str | None) -> Iterator[Shared | None]:
+    """Have `in_order` work on the cluster of the Dask scheduler at this address; None: in this process. Raises InvalidData for a cluster
+    that cannot be used."""
+    if address is None:
+        yield None
+        return
+    with workers.client(address) as client:
+        token = _SHARED.set(Shared(address, client))
+        try:
+            yield _SHARED.get()
+        finally:
+            _SHARED.reset(token)
+
+
+def in_order(function: Callable[..., Result], tasks: Iterable[Task]) -> Iterator[Result]:
+    """Yield function(*task) for each task, in their order; no more tasks are held than the workers have before them.
+
+    What a cluster cannot do, since its workers were killed each time or its scheduler was lost, is done in this process.
+    """
+    cluster = _SHARED.get()
+    if cluster is None:
+        yield from (_called(function, task) for task in tasks)
+        return
+    waiting: deque[tuple[Any, Task]] = deque()
+    room = AHEAD
+    with suppress(*GONE):
+        room *= max(1, sum(cluster.client.nthreads().values()))
+    for task in tasks:
+        waiting.append((_submitted(cluster, function, task), task))
+        if len(waiting) >= room:
+            yield _first(cluster, function, waiting)
+    while waiting:
+        yield _first(cluster, function, waiting)
+
+
+def _submitted(cluster: Shared, function: Callable[..., Result], task: Task) -> Any:
+    """Return the future of a task, None where the cluster is lost."""
+    if not cluster.lost:
+        # The warning says that arguments are large, which they are meant to be.
+        with suppress(*GONE), warnings.catch_warnings(action="ignore", category=UserWarning):
+            return cluster.client.submit(function, *task, pure=False)
+    return None
+
+
+def _first(cluster: Shared, function: Callable[..., Result], waiting: deque[tuple[Any, Task]]) -> Result:
+    future, task = waiting.popleft()
+    distributed: Any = import_module("distributed")
+    if future is not None and not cluster.lost:
+        try:
+            _done(cluster.client, [future], cluster.address)
+            result: Result = future.result()
+            return result
+        except InvalidData as error:
+            if future.status == "error":  # the function's own
+                raise
+            cluster.lost = str(error)
+        except distributed.KilledWorker:
+            pass
+        except (OSError, CancelledError):
+            if future.status == "error":
+                raise
+            cluster.lost = str(_lost(cluster.address))
+    return function(*task)
+
+
+def _by_processes(function: Callable[..., Result], tasks: Tasks, count: int) -> Iterator[tuple[int, Result | Died]]:
     waiting = deque(range(len(tasks)))
     while waiting:
         begun = set[int]()
@@ -69,7 +198,7 @@ def _by_processes(function: Callable[..., Result], tasks: Sequence[Task], count:
                 yield from _alone(function, tasks, k, count)
 
 
-def _alone(function: Callable[..., Result], tasks: Sequence[Task], k: int, count: int) -> Iterator[tuple[int, Result | Died]]:
+def _alone(function: Callable[..., Result], tasks: Tasks, k: int, count: int) -> Iterator[tuple[int, Result | Died]]:
     for _ in range(TRIES):
         with suppress(BrokenProcessPool):
             yield from _as_long_as_they_live(function, tasks, deque([k]), set(), count)
@@ -78,7 +207,7 @@ def _alone(function: Callable[..., Result], tasks: Sequence[Task], k: int, count
 
 
 def _as_long_as_they_live(
-    function: Callable[..., Result], tasks: Sequence[Task], waiting: deque[int], begun: set[int], count: int
+    function: Callable[..., Result], tasks: Tasks, waiting: deque[int], begun: set[int], count: int
 ) -> Iterator[tuple[int, Result]]:
     """Take numbers of tasks from `waiting` and yield results; `begun` holds those that are under way. Raises BrokenProcessPool."""
 
@@ -96,18 +225,32 @@ def _as_long_as_they_live(
 
 
 def _numbered(function: Callable[..., Result], k: int, task: Task) -> tuple[int, Result]:
-    return k, function(*task)
+    return k, _called(function, task)
 
 
-def _by_cluster(function: Callable[..., Result], tasks: Sequence[Task], address: str) -> Iterator[tuple[int, Result | Died]]:
-    with workers.client(address) as client:
+def _itself(value: Any) -> Any:
+    return value
+
+
+def _by_cluster(function: Callable[..., Result], tasks: Tasks, address: str) -> Iterator[tuple[int, Result | Died]]:
+    there = _SHARED.get()
+    with workers.client(address) if there is None or there.address != address else nullcontext(there.client) as client:
         distributed: Any = import_module("distributed")
         waiting = iter(range(len(tasks)))
         numbers: dict[Any, int] = {}
-        room = AHEAD * max(1, sum(client.nthreads().values()))
+        sent: dict[int, Any] = {}  # results of a task, which are made again where the worker that has them is lost
         while True:
-            for k in islice(waiting, room - len(numbers)):
-                numbers[client.submit(function, *tasks[k], pure=False)] = k
+            try:
+                room = AHEAD * max(1, sum(client.nthreads().values()))
+                for k in islice(waiting, room - len(numbers)):
+                    task = tasks[k]
+                    for one in task:
+                        if isinstance(one, Once) and id(one) not in sent:
+                            sent[id(one)] = one, client.submit(_itself, one.value, pure=False)
+                    given = [sent[id(one)][1] if isinstance(one, Once) else one for one in task]
+                    numbers[client.submit(function, *given, pure=False)] = k
+            except GONE:
+                raise _lost(address) from None
             if not numbers:
                 return
             for future in _done(client, list(numbers), address):

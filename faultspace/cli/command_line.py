@@ -122,6 +122,10 @@ def verify(
     recheck: Annotated[
         bool, typer.Option("--recheck", help="First compile the Rocq theory anew, whatever is cached, and let coqchk read it.")
     ] = False,
+    resume: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Keep what is decided there, and go on with what an earlier run has kept.", show_default=False),
+    ] = None,
     verbose: Verbose = False,
     json: Json = False,
 ) -> int:
@@ -133,7 +137,15 @@ def verify(
 
     workers = jobs or (os.cpu_count() or 1 if scheduler is None else -1)
     return verifying.run(
-        claim or [], effort=effort.value, jobs=workers, scheduler=scheduler, out=out, recheck=recheck, verbose=verbose, as_json=json
+        claim or [],
+        effort=effort.value,
+        jobs=workers,
+        scheduler=scheduler,
+        out=out,
+        recheck=recheck,
+        verbose=verbose,
+        as_json=json,
+        resume=resume,
     )
 
 
@@ -265,7 +277,8 @@ def identify(
         typer.Argument(
             metavar="DATA...",
             show_default=False,
-            help="A CSV, Parquet, NPZ, NPY or MAT file of measurements; several are experiments of one plant.",
+            help="A CSV, Parquet, NPZ, NPY or MAT file of measurements, or a folder of Parquet files, which are one record; several are "
+            "experiments of one plant.",
         ),
     ],
     inputs: Annotated[
@@ -332,6 +345,12 @@ def identify(
             show_default=False,
         ),
     ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ADDRESS", help="Have the Dask cluster with this scheduler share the work of long records.", show_default=False
+        ),
+    ] = None,
     json: Json = False,
 ) -> int:
     """Find model and faults in measured data.
@@ -348,7 +367,7 @@ def identify(
 
     settings = {"order": order, "block_rows": block_rows, "faults": faults, "healthy_until": healthy_until}
     known = identifying.Known(**settings, healthy=healthy, noise_level=noise_level, operating_point=operating_point, dt=dt, gaps=gaps)
-    return identifying.run(data, known, inputs=inputs or [], outputs=outputs or [], out=out, as_json=json)
+    return identifying.run(data, known, inputs=inputs or [], outputs=outputs or [], out=out, as_json=json, scheduler=scheduler)
 
 
 @_command()

@@ -17,6 +17,7 @@ from ..base.errors import InvalidInput, in_file, quote_path
 from ..base.messages import say
 from ..base.progress import Progress, evenly, working
 from ..base.sheets import counted
+from ..base.tasks import shared
 from ..numeric.data.files import read_record, read_stretches
 from ..numeric.data.records import Record
 from ..numeric.pipeline import identify
@@ -44,10 +45,20 @@ class Known:
     gaps: bool = False
 
 
-def run(files: Sequence[str], known: Known, *, inputs: Sequence[str], outputs: Sequence[str], out: Path | None, as_json: bool) -> int:
+def run(
+    files: Sequence[str],
+    known: Known,
+    *,
+    inputs: Sequence[str],
+    outputs: Sequence[str],
+    out: Path | None,
+    as_json: bool,
+    scheduler: str | None = None,
+) -> int:
     """Identify and write the files of `report.NAMES` into `out`; the exit code is 0 whenever there is an answer, "undecided" included.
 
-    Several files are experiments of one plant, and with `known.gaps` so are the parts of a file between missing samples.
+    Several files are experiments of one plant, and with `known.gaps` so are the parts of a file between missing samples. The workers of
+    the Dask `scheduler` take the windows of long records in sections; the answer is the same.
 
     A folder with a file of these names that no earlier run wrote is refused before anything is read. Where there is no answer, folders that
     were made for it go again.
@@ -61,13 +72,15 @@ def run(files: Sequence[str], known: Known, *, inputs: Sequence[str], outputs: S
     worded = as_options if known.healthy is None else of_file
     read = [*files, *([known.healthy] if known.healthy else [])]
     data = _named(files)
+    if any(Path(path).is_dir() and _same(out, path) for path in read):
+        raise InvalidInput(f"{quote_path(data)}: is a folder of measurements, expected another --out: try --out answer")
     if any(_same(out / name, path) for name in report.NAMES if (out / name).exists() for path in read):
         raise InvalidInput(f"{quote_path(data)}: would be overwritten by the answer of this name, expected another --out")
     refuse(out, report.NAMES)
     new = _missing(out)
     try:
         prepare_folder(out)
-        with working(f"reading {quote_path(data)}") as telling:
+        with shared(scheduler) as cluster, working(f"reading {quote_path(data)}") as telling:
             tell = evenly(telling)
             records = [one for path in files for one in _records(path, known.gaps, inputs, outputs, tell)]
             healthy: int | Record | None = known.healthy_until
@@ -85,6 +98,8 @@ def run(files: Sequence[str], known: Known, *, inputs: Sequence[str], outputs: S
                     dt=known.dt,
                     on_progress=tell,
                 )
+            if cluster is not None and cluster.lost:
+                say(f"{cluster.lost}; what was left was done here, and the answer is the same")
             tell("writing", 0, 0)
             written, remarks = report.write(answer, out, data, tell, worded=worded)
     except BaseException:

@@ -13,7 +13,7 @@ from ..base.messages import say
 from ..base.progress import evenly, working
 from ..numeric.report.folders import refuse
 from ..numeric.study.keeping import Kept, Settings, keeping
-from ..numeric.study.studies import STUDIES, Study, monte_carlo
+from ..numeric.study.studies import STUDIES, Study, check_memory, monte_carlo
 from .consoles import answers, paragraph, print_json, print_table
 from .failures import ANSWERED, NOT_AS_EXPECTED
 from .reading_files import prepare_folder
@@ -28,6 +28,7 @@ def run(
 
     Raises InvalidInput for a folder that cannot be written into, for one that another run has, with a file of these names that no earlier
     run wrote, or with cases of an unfinished run that are not those asked for, and for jobs or a cluster that cannot be used."""
+    check_memory(systems, samples, len(STUDIES))
     prepare_folder(out)
     refuse(out, NAMES)
     with keeping(out, Settings(seed, samples), resume=resume) as kept:

@@ -40,8 +40,10 @@ def run(
     recheck: bool,
     as_json: bool,
     verbose: bool = False,
+    resume: Path | None = None,
 ) -> int:
-    """Decide the claims (all when none is named), with `recheck` by theorems that are compiled anew, on a cluster where there is one.
+    """Decide the claims (all when none is named), with `recheck` by theorems that are compiled anew, on a cluster where there is one. What
+    is decided is kept in the file `resume` as it comes, and not decided again.
 
     Raises InvalidInput for an unknown claim or a folder that cannot be written into, and to recheck without Rocq; InvalidData for a cluster
     that cannot be used.
@@ -55,7 +57,7 @@ def run(
     if recheck and not _rechecked():
         return NOT_AS_EXPECTED
     with working("deciding the claims") as tell:
-        report = verify(claims or None, effort=effort, jobs=jobs, scheduler=scheduler, on_progress=tell)
+        report = verify(claims or None, effort=effort, jobs=jobs, scheduler=scheduler, resume=resume, on_progress=tell)
     if out is not None:
         count = write_out(report, out, () if claims else specimens())
         say(f"{counted(count, 'certificate')} and verdicts.json are in {quote_path(str(out))}")

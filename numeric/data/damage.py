@@ -43,3 +43,13 @@ def unpacks_to(size: int, packed: int, room: int, where: str) -> None:
         raise InvalidInput(f"got {got}, which is one value over and over or damaged, expected measured signals")
     if size > room:
         raise InvalidInput(f"got {counted(size, 'byte')} to unpack, more than the {room} that {where} has, expected a smaller file, or CSV")
+
+
+@contextmanager
+def readable(read_as: str) -> Iterator[None]:
+    """Raise InvalidInput where what is read turns out to be damaged."""
+    try:
+        yield
+    except (OSError, EOFError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise InvalidInput(f"cannot be read as {read_as} data ({reason[:1].lower()}{reason[1:]}), expected a data file") from None

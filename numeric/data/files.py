@@ -1,6 +1,6 @@
 """This reads measured data from files: named columns of CSV, Parquet, NPZ, NPY and MAT files as inputs and outputs.
 
-read_record     the chosen channels of a file, as a Record
+read_record     the chosen channels of a file, or of a folder of Parquet files, as a Record
 read_stretches  the stretches of a file between rows that are not whole, as Records
 FORMATS         suffix -> format
 READERS         format -> the function that reads it, at the end of the file
@@ -26,9 +26,8 @@ import shutil
 import tempfile
 import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
-from importlib import import_module
 from math import prod
 from pathlib import Path
 from typing import Any
@@ -44,8 +43,9 @@ from ...base.regular_files import open_regular
 from ...base.sheets import counted
 from .choosing import nothing_chosen
 from .clocks import Clock, first_clock, whole_clock
-from .damage import from_library, unpacks_to
+from .damage import from_library, readable, unpacks_to
 from .hdf5 import hdf5_arrays
+from .parts import ParquetParts, parts_of
 from .records import Record, RecordWriter
 from .selectors import labels_of, missing, named_once, picked, split_names
 from .text_tables import TextTable
@@ -59,7 +59,6 @@ FORMATS = {
 }  # fmt: skip
 MATRIX = "data"
 PIECE = 1 << 14  # samples converted at once
-BUFFER = 1 << 20  # bytes of a column that Parquet reads at once
 MAPPED = 1 << 20  # bytes of an array above which it is mapped, not read
 
 
@@ -79,7 +78,8 @@ def read_record(
 ) -> Record:
     """Return the record in a file: some of its named columns as inputs, others as outputs, ready for `identify`.
 
-    `path` ends in .csv, .tsv, .txt, .dat, .parquet, .pq, .npz, .npy or .mat; `inputs` and `outputs` name n_u and p channels, by the
+    `path` ends in .csv, .tsv, .txt, .dat, .parquet, .pq, .npz, .npy or .mat, or is a folder of Parquet files with the same columns, which
+    are one record in parts, in the order of the numbers in their names; `inputs` and `outputs` name n_u and p channels, by the
     names of columns or, for matrices, as NAME[:,j]; a text may hold several names, separated by commas, and a name with a comma stands in
     double quotes. Rows are samples, in the order of time and in the file's units, and every number must be finite. A column of times or
     dates that is none of them gives the `clock` of the record: its sample time, and what is odd about it. `on_progress(stage, done, total)`
@@ -99,7 +99,7 @@ def read_record(
     with in_file(path), ExitStack() as stack:
         read_as, found, u_names, y_names = _opened(path, inputs, outputs, on_progress or silent, stack)
         writer = RecordWriter(len(u_names) + len(y_names))
-        with _readable(read_as):
+        with readable(read_as):
             for rows in found.rows:
                 _finite([*u_names, *y_names], rows, len(writer.store))
                 writer.append(rows)
@@ -133,7 +133,7 @@ def read_stretches(
         clock = None if found.clock is None else whole_clock(found.clock)
         gaps = np.array([] if found.clock is None else found.clock.gaps, dtype=int)
         going, start = False, 0
-        with _readable(read_as):
+        with readable(read_as):
             for rows in found.rows:
                 whole = np.asarray(np.isfinite(rows).all(axis=1))
                 ends = np.union1d(np.flatnonzero(np.diff(whole)) + 1, gaps[(gaps > start) & (gaps < start + len(rows))] - start)
@@ -155,8 +155,10 @@ def _opened(
     chosen = {"inputs": split_names(inputs), "outputs": split_names(outputs)}
     names = [*chosen["inputs"], *chosen["outputs"]]
     named_once(chosen["inputs"], chosen["outputs"])
-    open_regular(path, f"a data file: {', '.join(FORMATS)}").close()
-    read_as = FORMATS.get(Path(path).suffix.lower())
+    in_parts = os.path.isdir(path)
+    if not in_parts:
+        open_regular(path, f"a data file: {', '.join(FORMATS)}").close()
+    read_as = "Parquet" if in_parts else FORMATS.get(Path(path).suffix.lower())
     if read_as is None:
         suffix = shorten(Path(path).suffix)
         raise InvalidInput(f"got a file whose name ends in {suffix}, expected {', '.join(FORMATS)}: rename or convert it")
@@ -164,10 +166,11 @@ def _opened(
     def read(wanted: Sequence[str]) -> _Opened:
         return READERS[read_as](Path(path), wanted, lambda done, total: heard(f"reading {quote_path(path)}", done, total), stack)
 
-    with _readable(read_as):
+    with readable(read_as):
         if not (chosen["inputs"] and chosen["outputs"]):
             raise nothing_chosen(path, chosen["inputs"], chosen["outputs"], read)
         found = read(names)
+        found = replace(found, rows=_even(found.rows))
     labels = [labels_of(name, width) for name, width in zip(names, found.widths, strict=True)]
     u_names = [label for group in labels[: len(chosen["inputs"])] for label in group]
     y_names = [label for group in labels[len(chosen["inputs"]) :] for label in group]
@@ -175,14 +178,17 @@ def _opened(
     return read_as, found, u_names, y_names
 
 
-@contextmanager
-def _readable(read_as: str) -> Iterator[None]:
-    """Raise InvalidInput where what is read turns out to be damaged."""
-    try:
-        yield
-    except (OSError, EOFError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise InvalidInput(f"cannot be read as {read_as} data ({reason[:1].lower()}{reason[1:]}), expected a data file") from None
+def _even(pieces: Iterator[Array]) -> Iterator[Array]:
+    """Yield the same rows PIECE at a time, so that no sum of them depends on how a file is laid out, or in which parts it came."""
+    kept: list[Array] = []
+    for rows in pieces:
+        kept.append(rows)
+        while sum(map(len, kept)) >= PIECE:
+            together = np.concatenate(kept)
+            yield together[:PIECE]
+            kept = [together[PIECE:]]
+    if sum(map(len, kept)):
+        yield np.concatenate(kept)
 
 
 def _finite(labels: Sequence[str], rows: Array, first: int) -> None:
@@ -219,46 +225,9 @@ def _text(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -
 
 
 def _parquet(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -> _Opened:
-    try:
-        parquet: Any = import_module("pyarrow.parquet")
-        arrow: Any = import_module("pyarrow")
-    except ImportError:
-        advice = "pip install 'faultspace[parquet]', or write the data as CSV or NPZ"
-        raise InvalidInput(f"got a Parquet file, which needs pyarrow: {advice}") from None
-
-    with from_library("Parquet", "a Parquet file"):
-        file = stack.enter_context(parquet.ParquetFile(path, pre_buffer=False, buffer_size=BUFFER))
-        there = list(file.schema_arrow.names)
-    twice = [name for name in names if there.count(name) > 1]
-    if twice:
-        raise InvalidInput(f"got two columns named {shorten(twice[0])}, expected every name once")
-    for name in names:
-        if name not in there:
-            raise missing(name, there, "column")
-        kind = file.schema_arrow.field(name).type
-        if not (arrow.types.is_integer(kind) or arrow.types.is_floating(kind) or arrow.types.is_boolean(kind)):
-            raise InvalidInput(f"column {shorten(name)} holds values of type {kind}, expected numbers")
-
-    def rows() -> Iterator[Array]:
-        done, batches = 0, file.iter_batches(batch_size=PIECE, columns=list(names), use_threads=False)
-        while True:
-            with from_library("Parquet", "a Parquet file"):
-                batch = next(batches, None)
-                if batch is None:
-                    return
-                columns = [batch.column(batch.schema.get_field_index(name)).cast(arrow.float64()) for name in names]
-                values = np.column_stack([np.asarray(column.to_numpy(zero_copy_only=False), dtype=np.float64) for column in columns])
-            yield values
-            done += batch.num_rows
-            on_read(done, file.metadata.num_rows)
-
-    def column(name: str) -> Any:
-        with from_library("Parquet", "a Parquet file"):
-            return file.read(columns=[name]).column(0).to_numpy()
-
-    single = any(file.schema_arrow.field(name).type == arrow.float32() for name in names)
-    clock = first_clock([name for name in there if name not in names], column)
-    return _Opened((1,) * len(names), single, rows(), clock)
+    parts = ParquetParts(parts_of(path) if path.is_dir() else [path], names)
+    clock = first_clock([name for name in parts.columns if name not in names], parts.column)
+    return _Opened((1,) * len(names), parts.single, parts.rows(PIECE, on_read), clock)
 
 
 def _npz(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -> _Opened:

@@ -18,9 +18,9 @@ past_input_compression   the factor of [Uf; Up; Yf] that PI-MOESP asks for, out 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, reduce
 from math import isqrt
 
 import numpy as np
@@ -29,6 +29,8 @@ from numpy.typing import NDArray
 from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ...base.sheets import counted
+from ...base.tasks import in_order
+from ..data.validation import PIECE
 from .compression import EPS, Compression, scaled_condition, window_rows
 from .sequential_qr import SequentialQR, triangular
 
@@ -44,6 +46,8 @@ WORK, LEAST = 1 << 35, 20
 some seconds, and LEAST in any case. The bias of a truncated autoregression falls as fast as any power of 1/lags [LR85]."""
 
 
+SECTION = 1 << 18
+"""Windows of a section. A longer record is taken in sections, whoever works on them, so that no digit depends on who does."""
 CONSTANT = 1e-13
 """A channel whose distances from its mean are below that share of the mean is taken as constant: it has no more than two digits left, which
 are rounding."""
@@ -126,27 +130,56 @@ def longest_lag(lengths: Sequence[int], p: int, n_u: int) -> int:
 
 
 def arx_windows(data: Iterable[tuple[Array, Array]], lags: int) -> ArxWindows:
-    """Return the windows of one experiment in float64 pieces (y, u). Raises InvalidData for no pieces or unequal channels."""
-    running: SequentialQR | None = None
-    p = n_u = samples = 0
+    """Return the windows of one experiment in float64 pieces (y, u). Raises InvalidData for no pieces or unequal channels.
+
+    A long record is cut into sections, which the workers of a cluster may do (`base/tasks.py`); a section begins with the `lags` samples
+    that the one before ends with, so that each window is in one of them.
+    """
+    return reduce(joined_windows, in_order(_of_section, _sections(data, lags)))
+
+
+def _sections(data: Iterable[tuple[Array, Array]], lags: int) -> Iterator[tuple[Array, Array, int]]:
+    """Yield outputs and inputs of the sections, and the lags."""
+    kept: list[tuple[Array, Array]] = []
+    held = 0
+    first: tuple[int, int] | None = None
     for y, u in data:
-        if running is None:
-            p, n_u = y.shape[1], u.shape[1]
-            running = SequentialQR(_rows(p, n_u, lags), n_u + p + 1)
-        elif (y.shape[1], u.shape[1]) != (p, n_u):
+        first = first or (y.shape[1], u.shape[1])
+        if (y.shape[1], u.shape[1]) != first:
             raise InvalidData(
                 f"a piece has {counted(u.shape[1], 'input')} and {counted(y.shape[1], 'output')} "
-                f"where the first has {n_u} and {p}: all need the same"
+                f"where the first has {first[1]} and {first[0]}: all need the same"
             )
-        running.append(np.concatenate([u, y, np.ones((len(y), 1))], axis=1))
-        samples += len(y)
-    if running is None:
+        kept.append((y, u))
+        held += len(y)
+        while held > SECTION + lags:  # one sample more, so that no section is empty
+            whole_y, whole_u = (np.concatenate(parts) for parts in zip(*kept, strict=True))
+            yield whole_y[: SECTION + lags], whole_u[: SECTION + lags], lags
+            kept = [(whole_y[SECTION:], whole_u[SECTION:])]
+            held -= SECTION
+    if not kept:
         raise InvalidData("no data: the iterable of pieces (y, u) is empty")
+    y, u = (np.concatenate(parts) for parts in zip(*kept, strict=True))
+    yield y, u, lags
+
+
+def _of_section(y: Array, u: Array, lags: int) -> ArxWindows:
+    """Return the windows of outputs (N, p) and inputs (N, n_u)."""
+    p, n_u = y.shape[1], u.shape[1]
+    running = SequentialQR(_rows(p, n_u, lags), n_u + p + 1)
+    for start in range(0, max(len(y), 1), PIECE):
+        piece = slice(start, start + PIECE)
+        running.append(np.concatenate([u[piece], y[piece], np.ones((len(y[piece]), 1))], axis=1))
     whole, windows = running.factor(), running.columns
     means = whole[0, 1:] / np.sqrt(max(windows, 1))
-    factor = whole[1:, 1:].copy()
-    factor[:, np.abs(factor).max(axis=0) <= CONSTANT * np.abs(whole[:, 1:]).max(axis=0)] = 0.0
-    return ArxWindows(factor, lags, p, n_u, windows, min(windows, 1), samples, (means,))
+    return ArxWindows(_without_rounding(whole[1:, 1:], means, windows), lags, p, n_u, windows, min(windows, 1), len(y), (means,))
+
+
+def _without_rounding(factor: Array, mean: Array, windows: int) -> Array:
+    """Return the factor with zeros for a channel that is constant, whose distances from its mean are rounding."""
+    sizes = np.abs(factor).max(axis=0)
+    rounding = sizes <= CONSTANT * np.maximum(sizes, np.sqrt(windows) * np.abs(mean))
+    return np.where(rounding, 0.0, factor)
 
 
 def joined_windows(first: ArxWindows, second: ArxWindows) -> ArxWindows:
@@ -158,13 +191,15 @@ def joined_windows(first: ArxWindows, second: ArxWindows) -> ArxWindows:
     both = max(one + two, 1)
     (mean,), (other,) = first.means, second.means
     apart = np.sqrt(one * two / both) * (mean - other)
+    together = (one * mean + two * other) / both
+    factor = triangular(first.factor, second.factor, apart[None])
     return replace(
         first,
-        factor=triangular(first.factor, second.factor, apart[None]),
+        factor=_without_rounding(factor, together, both),
         windows=one + two,
         constants=min(one + two, 1),
         samples=first.lags + one + two,
-        means=((one * mean + two * other) / both,),
+        means=(together,),
     )
 
 

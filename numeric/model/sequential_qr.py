@@ -66,7 +66,6 @@ class SequentialQR:
         self._block = np.empty((max(width // 2, ENTRIES // width, 1), width), order="F")
         self._kept = np.empty((channels, 0))
         self._samples = 0
-        self._groups = 0
 
     @property
     def columns(self) -> int:
@@ -86,12 +85,13 @@ class SequentialQR:
                 self._block[:count, number] = joint[channel, begin : begin + count * TOGETHER : TOGETHER]
             # tpqrt overwrites a full block in place; the shorter last one is copied on the way.
             self._factor = append_rows(self._factor, self._block if count == len(self._block) else np.array(self._block[:count], order="F"))
-        self._groups += groups
         self._kept = joint[:, groups * TOGETHER :].copy()
 
     def factor(self) -> Array:
         """Return R (k, k) so far; fewer columns than rows leave zero rows."""
-        longer = np.triu(self._factor)[: self._groups]
+        # Rows of zeros are those that columns which repeat others, as constants do, have left out; the others may stand behind them.
+        longer = np.triu(self._factor)
+        longer = longer[np.any(longer, axis=1)]
         rest = max(self._kept.shape[1] - self._lags + 1, 0)
         last = np.array([self._kept[channel, lag : lag + rest] for lag, channel in self._rows]).T
         return triangular(*(longer[:, places] for places in self._places), last)

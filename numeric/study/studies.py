@@ -8,6 +8,7 @@
                          space and the estimate over its maximum; the library's estimator beside the published one
     CORRECTED_IDENTIFIED as corrected, with A, B, C, D identified by PI-MOESP; beside it what `identify` does, with a model of its own
     STUDIES              these plans by name
+    check_memory         refuses more systems or samples than memory holds
     Study                what came of a plan: a Case for each system, read by people, programs and notebooks
 
 What is wrong with the published numbers, and how a case says so. With no zeros rank R_5 = 15 of 15 rows: there is no null row, every
@@ -36,32 +37,25 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+import psutil
 
 from ...base.errors import InvalidData, shorten
 from ...base.progress import Progress, silent
 from ...base.sheets import Shown, counted
-from ...base.tasks import Died
+from ...base.tasks import Died, Task
 from ..data.validation import positive
 from .case_stacks import published_cases
-from .cases import (
-    LAWS,
-    LIKELIHOOD,
-    PAPER,
-    Case,
-    Failed,
-    Numbered,
-    attempted,
-    corrected_case,
-    corrected_identified_case,
-    identified_case,
-    one_by_one,
-)
+from .cases import LAWS, LIKELIHOOD, PAPER, Case, Failed, attempted, corrected_case, corrected_identified_case, identified_case, one_by_one
 from .groups import Group, Plan, StudyCases, by_phase, by_zeros
 from .plots import errors_by_zeros
 from .runs import SAMPLES
 from .workers import done_by
 
 SEED = 1907
+CASE_BYTES = 1 << 12
+"""No case of a study takes more memory; `tests/numeric/test_study_memory.py` measures it."""
+SAMPLE_BYTES = 1 << 14
+"""No record takes more for each of its samples while a case is made of it; measured there as well."""
 
 _CONTAINMENT = "angles from [F; G] to the estimate (containment) over n_v pi/2; at most 71 %"
 _TWO_SIDED = "two-sided distance between the true fault space and the estimate, over its maximum"
@@ -179,7 +173,7 @@ def monte_carlo(
     A process that is killed is replaced, and its cases are done again. A case that raises, or whose process ends each time, is one of
     `failed`, with the reason.
 
-    Raises InvalidData for an unknown plan, for numbers out of range and for a cluster that cannot be used.
+    Raises InvalidData for an unknown plan, for numbers out of range, for more than memory holds, and for a cluster that cannot be used.
 
     >>> import faultspace as fs
     >>> study = fs.monte_carlo("published", systems=4, samples=200, jobs=1)
@@ -199,10 +193,11 @@ def monte_carlo(
         raise InvalidData(f"seed: got {seed}; a whole number from 0 on is needed")
     start = time.perf_counter()
     found: dict[int, Case | Failed] = {index: case for index, case in (known or {}).items() if 0 <= index < systems}
-    left = [each for each in enumerate(np.random.SeedSequence(seed).spawn(systems)) if each[0] not in found]
+    check_memory(systems, samples)
+    left = [index for index in range(systems) if index not in found]
     heard = on_progress or silent
     heard(plan.name, len(found), systems)
-    for came in _done(plan, left, samples, jobs, cluster):
+    for came in _done(plan, left, seed, samples, jobs, cluster):
         if on_cases is not None:
             on_cases(came)
         found |= {each.index: each for each in came}
@@ -212,21 +207,57 @@ def monte_carlo(
     return Study(plan, seed, samples, cases, time.perf_counter() - start, failed)
 
 
-def _done(plan: Plan, numbered: list[Numbered], samples: int, jobs: int | None, cluster: str | None) -> Iterator[list[Case | Failed]]:
+@dataclass(frozen=True)
+class _Stacks:
+    """The tasks of a study: the cases with these indices, `size` at a time, whose seeds are made when they are asked for."""
+
+    plan: Plan
+    seed: int
+    samples: int
+    indices: Sequence[int]
+    size: int
+
+    def of(self, number: int) -> Sequence[int]:
+        """Return the indices of a task's cases."""
+        return self.indices[number * self.size : (number + 1) * self.size]
+
+    def __len__(self) -> int:
+        return -(-len(self.indices) // self.size)
+
+    def __getitem__(self, number: int) -> Task:
+        # What SeedSequence(seed).spawn gives each of them, without the others.
+        numbered = [(index, np.random.SeedSequence(self.seed, spawn_key=(index,))) for index in self.of(number)]
+        return self.plan.cases, numbered, self.samples
+
+
+def _done(
+    plan: Plan, indices: Sequence[int], seed: int, samples: int, jobs: int | None, cluster: str | None
+) -> Iterator[list[Case | Failed]]:
     """Yield the cases of stack after stack, as they come. Of a stack whose process ended each time, each case is tried alone."""
-    tried, stack, worth = numbered, plan.stack, -(-plan.worth // plan.stack)
+    tried, stack, worth = indices, plan.stack, -(-plan.worth // plan.stack)
     while tried:
-        stacks = [tried[first : first + stack] for first in range(0, len(tried), stack)]
-        tasks = [(plan.cases, each, samples) for each in stacks]
-        tried, stack = [], 1
-        for k, came in done_by(attempted, tasks, worth=worth, jobs=jobs, cluster=cluster):
+        stacks = _Stacks(plan, seed, samples, tried, stack)
+        again: list[int] = []
+        for k, came in done_by(attempted, stacks, worth=worth, jobs=jobs, cluster=cluster):
             if not isinstance(came, Died):
                 yield came
-            elif len(stacks[k]) == 1:
-                yield [Failed(stacks[k][0][0], came.reason)]
+            elif len(stacks.of(k)) == 1:
+                yield [Failed(stacks.of(k)[0], came.reason)]
             else:
-                tried += stacks[k]
-        worth = 1  # what ended another process is not to end this one
+                again += stacks.of(k)
+        tried, stack, worth = again, 1, 1  # what ended another process is not to end this one
+
+
+def check_memory(systems: int, samples: int, plans: int = 1) -> None:
+    """Raise InvalidData where the cases of so many plans, or a record, may need more memory than there is."""
+    there = psutil.virtual_memory().available
+    for name, count, each in (("systems", systems, CASE_BYTES * plans), ("samples", samples, SAMPLE_BYTES)):
+        if count * each > there:
+            most = there // each
+            raise InvalidData(
+                f"{name}: got {count}, which may take {count * each / 2**30:.3g} GB of memory, of which {there / 2**30:.3g} are free; ask "
+                f"for {most} at most" + (", and for the others with another seed" if name == "systems" else "")
+            )
 
 
 def _in_words(group: Group) -> str:

@@ -8,13 +8,13 @@ The processes, and the cluster that may be in their place, are those of `base/wo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from typing import Any, TypeVar
+from collections.abc import Callable, Iterator
+from typing import TypeVar
 
 import joblib
 
 from ...base.errors import InvalidData
-from ...base.tasks import Died, as_they_come
+from ...base.tasks import Died, Tasks, as_they_come
 from ..data.validation import positive
 
 Result = TypeVar("Result")
@@ -22,7 +22,7 @@ Result = TypeVar("Result")
 
 def done_by(
     function: Callable[..., Result],
-    tasks: Sequence[tuple[Any, ...]],
+    tasks: Tasks,
     *,
     worth: int,
     jobs: int | None = None,

@@ -11,6 +11,7 @@ and where the file has nothing on a statement that the catalogue attacks.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -33,8 +34,17 @@ class Attacking:
     records: tuple[AttackRecord, ...] | None
 
 
-def attacking(claims: set[str], effort: str, jobs: int, progress: Progress) -> Attacking:
-    """Returns the attacks on these claims, and those on every row where all claims are meant; effort "full" runs them now."""
+def attacking(
+    claims: set[str],
+    effort: str,
+    jobs: int,
+    progress: Progress,
+    *,
+    known: Callable[[str], AttackRecord | None] = lambda name: None,
+    on_record: Callable[[AttackRecord], None] = lambda record: None,
+) -> Attacking:
+    """Returns the attacks on these claims, and those on every row where all claims are meant; effort "full" runs them now, but for those of
+    which there is a `known` record, and hands over each record as it comes."""
     if effort != "full":
         return Attacking(None)
     chosen = [attack for attack in catalogue() if attack.target.startswith(WITHOUT) or attack.target.partition(".")[0] in claims]
@@ -42,7 +52,12 @@ def attacking(claims: set[str], effort: str, jobs: int, progress: Progress) -> A
     def report(name: str, done: int, total: int) -> None:
         progress(f"adversary: {name}", done, total)
 
-    return Attacking(tuple(run_attacks(chosen, seconds=SECONDS, seed=0, jobs=jobs, progress=report)))
+    records = {attack.id: record for attack in chosen if (record := known(attack.id)) is not None}
+    waiting = [attack for attack in chosen if attack.id not in records]
+    for record in run_attacks(waiting, seconds=SECONDS, seed=0, jobs=jobs, progress=report):
+        on_record(record)
+        records[record["attack"]] = record
+    return Attacking(tuple(records[attack.id] for attack in chosen))
 
 
 def of_reading(result: ReadingResult, claim: str, attacks: Attacking) -> ReadingResult:

@@ -24,9 +24,8 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from joblib import Parallel, delayed
-
 from ...base.progress import Progress
+from ...base.tasks import ordered, processes
 from ..evidence.attacks import Aim, Attack, Attacked, Trial
 from ..trust.structure_certificates import Certificate, sha256
 from .catalogue import attacks_on, catalogue, statement_of
@@ -49,7 +48,7 @@ def run_attacks(
     """Every attack runs for at most so many seconds, a sweep for SWEEP times as many; the records come in order. `progress(id, done,
     total)` is called after each."""
     places = {attack.id: place for place, attack in enumerate(catalogue())}
-    stream = Parallel(n_jobs=jobs, return_as="generator")(delayed(_run)(places[attack.id], seconds, seed) for attack in attacks)
+    stream = ordered(_run, [(places[attack.id], seconds, seed) for attack in attacks], count=processes(jobs))
     for done, record in enumerate(stream, 1):
         if progress is not None:
             progress(record["attack"], done, len(attacks))

@@ -13,6 +13,7 @@ from typing import Any
 
 from ...base.errors import InvalidInput, shorten
 from ...base.progress import Progress, silent
+from ...base.tasks import shared
 from ...base.threads import one_thread
 from ...exact.algebra.embeddings import RealField
 from ...exact.system.systems import System
@@ -24,7 +25,7 @@ from .answers import ClaimAnswers
 from .case_files import at_root, fitting
 from .claims import Claim, make_claim
 from .deciding import decide
-from .kept import Kept, Sharing
+from .kept import Sharing, keeping
 
 MOST = 10**9
 Predicate = Callable[[Asked], bool]
@@ -86,8 +87,9 @@ def decide_claims(
     for name, value in (("most", most), ("jobs", jobs)):
         if type(value) is not int or value < 1:
             raise InvalidInput(f"{name}: got {shorten(value)}, expected an integer >= 1")
-    sharing = Sharing(jobs, cluster, None if resume is None else Kept(resume))
-    answers = [one for given in claims for one in decide(given, ablation=ablation, most=most, progress=on_progress, sharing=sharing)]
+    with keeping(resume) as kept, shared(cluster):
+        sharing = Sharing(jobs, cluster, kept)
+        answers = [one for given in claims for one in decide(given, ablation=ablation, most=most, progress=on_progress, sharing=sharing)]
     return ClaimAnswers(tuple(answers))
 
 

@@ -1,25 +1,24 @@
 """What a search of a large box went through is kept in a file, so that the same command goes on where it was stopped.
 
-    Kept         the file: parts of boxes that were gone through, and in which nothing failed
+    Kept         the file: parts of boxes that were gone through, and in which nothing failed; keeping has it open
     Sharing      how the parts of a large box are shared out: processes, a Dask cluster, and a file that keeps them
     WORTH_SHARING, SYSTEMS_A_PART    from how many systems on a box is cut into parts, and how large these are
 
 A part is named by a digest of everything that it depends on: the questions, the box, the sizes, and which part it is. One in which
-something fails is not kept, but gone through again, which takes as long as it took to find it. The file is lines of JSON; one that a stop
-cut short, which can be the last alone, is left out.
+something fails is not kept, but gone through again, which takes as long as it took to find it.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...base.errors import InvalidInput, quote_path
+from ...base.kept_lines import KeptLines, keeping_lines
 
 FORMAT = "faultspace-searched/1"
 WORTH_SHARING = 10**6
@@ -42,37 +41,29 @@ class Sharing:
 
 
 class Kept:
-    """The parts of a file, which is made where it is not there. Raises InvalidInput for a file that is not one of these."""
+    """The parts of a file, by name."""
 
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self.parts: dict[str, Mapping[str, Any]] = {}
-        try:
-            text = path.read_text("utf-8") if path.exists() else ""
-            whole = text[: text.rfind("\n") + 1]
-            for line in whole.splitlines():
-                part = json.loads(line)
-                if part["format"] != FORMAT or not _good(part):
-                    raise ValueError("it has other lines")
-                self.parts[str(part["part"])] = part
-            if whole != text:
-                path.write_text(whole, "utf-8")
-            else:
-                path.touch()
-        except (OSError, ValueError, KeyError, TypeError) as error:
-            reason = error.strerror if isinstance(error, OSError) else "it is no such file"
-            raise InvalidInput(
-                f"--resume: got {quote_path(str(path))}, expected a file that an earlier run kept its parts in, or a new name ({reason})"
-            ) from None
+    def __init__(self, lines: KeptLines) -> None:
+        self._lines = lines
+        self.parts: dict[str, Mapping[str, Any]] = {str(part["part"]): part for part in lines.lines}
 
     def note(self, name: str, **numbers: Any) -> None:
-        """Write a part to the file at once."""
-        line = {"format": FORMAT, "part": name, **numbers}
-        with self.path.open("a", encoding="utf-8") as file:
-            file.write(json.dumps(line, sort_keys=True) + "\n")
-            file.flush()
-            os.fsync(file.fileno())
-        self.parts[name] = line
+        """Write a part to the file at once. Raises InvalidInput where that cannot be."""
+        self._lines.note(part=name, **numbers)
+        self.parts[name] = self._lines.lines[-1]
+
+
+@contextmanager
+def keeping(path: Path | None) -> Iterator[Kept | None]:
+    """Yield the parts of a file, which is made where it is not there, and which no other run has meanwhile; None for no file.
+
+    Raises InvalidInput for a file that is not one of these.
+    """
+    if path is None:
+        yield None
+        return
+    with keeping_lines(path, FORMAT, _good, "--resume") as lines:
+        yield Kept(lines)
 
 
 def _good(part: Mapping[str, Any]) -> bool:

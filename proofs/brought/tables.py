@@ -18,13 +18,12 @@ from functools import lru_cache
 from itertools import groupby
 from typing import Any
 
-import joblib
 import numpy as np
 from flint import nmod
 
 from ...base.errors import InvalidInput
 from ...base.progress import Progress
-from ...base.workers import pool
+from ...base.tasks import ordered
 from ...exact.algebra.fields import Field
 from ...exact.system.systems import ResidualSystem
 from ..language.by_batches import Table as Answers
@@ -161,8 +160,7 @@ def _merge(rows: dict[Values, Row], new: Row) -> None:
 def _share(asked: _Asked, number: int, left: int, jobs: int, tell: Callable[[int], None]) -> list[_Part]:
     if jobs == 1 or asked.box.count(*asked.box.sizes()[number]) < WORTH_SHARING:
         return [_of_sizes(asked, number, left, 0, 1, tell)]
-    with pool(jobs, None) as parallel:
-        return list(parallel(joblib.delayed(_of_sizes)(asked, number, left // jobs, k, jobs, None) for k in range(jobs)))
+    return list(ordered(_of_sizes, [(asked, number, left // jobs, k, jobs, None) for k in range(jobs)], count=jobs))
 
 
 def _of_sizes(asked: _Asked, number: int, left: int, mine: int, of: int, tell: Callable[[int], None] | None) -> _Part:

@@ -13,12 +13,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-import joblib
 import numpy as np
 
-from ...base.errors import InvalidInput
+from ...base.errors import InvalidData, InvalidInput
 from ...base.progress import Progress
-from ...base.workers import pool
+from ...base.tasks import Died, as_they_come
 from ..language.by_batches import Table, UndefinedAt, true_of
 from ..language.invariance import invariant
 from ..language.nodes import Node
@@ -125,13 +124,19 @@ def _share(box: Box, sizes: Sizes, asked: list[Question], left: int, sharing: Sh
         if kept is not None and (one := kept.parts.get(name)) is not None and len(one["met"]) == len(asked):
             parts[k] = _Part(one["systems"], one["looked_at"], one["whole"], list(one["met"]), [None] * len(asked))
     waiting = [k for k in range(of) if k not in parts]
-    with pool(sharing.jobs, sharing.cluster) as parallel:
-        tasks = (joblib.delayed(_search)(box, sizes, asked, left // of, k, of, reduced=reduced) for k in waiting)
-        for k, part in zip(waiting, parallel(tasks), strict=True):
-            parts[k] = part
-            if kept is not None and not any(part.first):
-                kept.note(names[k], systems=part.systems, looked_at=part.looked_at, whole=part.whole, met=part.met)
+    tasks = [(box, sizes, asked, left // of, k, of, reduced) for k in waiting]
+    for number, part in as_they_come(_search_part, tasks, count=sharing.jobs, cluster=sharing.cluster):
+        k = waiting[number]
+        if isinstance(part, Died):
+            raise InvalidData(f"part {k + 1} of {of} of {box} came to no end: {part.reason}")
+        parts[k] = part
+        if kept is not None and not any(part.first):
+            kept.note(names[k], systems=part.systems, looked_at=part.looked_at, whole=part.whole, met=part.met)
     return [parts[k] for k in range(of)]
+
+
+def _search_part(box: Box, sizes: Sizes, asked: list[Question], left: int, mine: int, of: int, reduced: bool) -> _Part:
+    return _search(box, sizes, asked, left, mine, of, reduced=reduced)
 
 
 def _search(box: Box, sizes: Sizes, asked: list[Question], left: int, mine: int, of: int, *, reduced: bool) -> _Part:

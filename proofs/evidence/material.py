@@ -15,9 +15,8 @@ from pathlib import Path
 from typing import Any
 from uuid import uuid4
 
-from joblib import Parallel, delayed
-
 from ...base.progress import Progress
+from ...base.tasks import ordered, processes
 
 
 @dataclass(frozen=True)
@@ -65,7 +64,7 @@ def made(kinds: Sequence[Material], bench: Any, jobs: int, progress: Progress) -
         tasks += [(some, items[start : start + some[0].together]) for start in range(0, len(items), some[0].together)]
     parts: dict[str, list[Any]] = {kind.name: [] for kind in kinds}
     done, total = 0, sum(len(batch) for _, batch in tasks)
-    stream = Parallel(n_jobs=jobs, return_as="generator")(delayed(_made_of)([kind.make for kind in some], batch) for some, batch in tasks)
+    stream = ordered(_made_of, [([kind.make for kind in some], batch) for some, batch in tasks], count=processes(jobs))
     for (some, batch), answers in zip(tasks, stream, strict=True):
         for kind, answer in zip(some, answers, strict=True):
             if not isinstance(answer, Exception):

@@ -301,7 +301,7 @@ class Report(Shown):
     corpus: str
     seconds: float
     machine: str = "not asked"
-    versions: dict[str, str] = field(default_factory=lambda: _versions(("faultspace", "python-flint", "sympy", "numpy")))
+    versions: dict[str, str] = field(default_factory=lambda: versions())
 
     @property
     def as_expected(self) -> bool:
@@ -353,9 +353,10 @@ class Report(Shown):
         }
 
 
-def _versions(names: Sequence[str]) -> dict[str, str]:
+def versions() -> dict[str, str]:
+    """Return the versions of Python and of what verdicts are computed with, by name."""
     found = {"python": platform.python_version()}
-    for name in names:
+    for name in ("faultspace", "python-flint", "sympy", "numpy"):
         try:
             found[name] = version(name)
         except PackageNotFoundError:

@@ -69,6 +69,7 @@ def pretended(monkeypatch: pytest.MonkeyPatch) -> Callable[[Verdict], list[dict[
             jobs: int | None,
             on_progress: Callable[[str, int, int], None],
             scheduler: str | None = None,
+            resume: Path | None = None,
         ) -> Report:
             calls.append({"claims": claims, "effort": effort, "jobs": jobs})
             on_progress("systems", 0, 12)

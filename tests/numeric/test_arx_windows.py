@@ -59,6 +59,22 @@ def test_the_model_is_the_regression_of_its_order() -> None:
     assert np.allclose(model.covariance, left.T @ left / (len(left) - 1 - windows.regressors(model.order)), rtol=1e-5)
 
 
+@pytest.mark.parametrize("samples", [6, 14, 60, 105, 300, 500, 800])
+@pytest.mark.parametrize("alike", [False, True])
+def test_the_factor_of_a_short_record_is_that_of_its_windows(samples: int, alike: bool) -> None:
+    """The twin forms the windows. Columns that repeat others, as those of the constant do, must not cost rows of the factor."""
+    lags, draw = 5, np.random.default_rng(3)
+    u = draw.standard_normal((samples, 2))
+    u[:, 1] = u[:, 0] if alike else 3.7
+    y = np.cumsum(u, axis=0) + draw.standard_normal((samples, 2))
+    found = arx_windows([(y, u)], lags)
+    past = [[part[k - lag] for lag in range(1, lags + 1) for part in (y, u)] for k in range(lags, samples)]
+    rows = np.array([np.concatenate([u[k], *earlier, y[k]]) for k, earlier in zip(range(lags, samples), past, strict=True)])
+    about = rows - rows.mean(axis=0)
+    gram, size = about.T @ about, np.linalg.norm(rows, axis=0)
+    assert np.all(np.abs(found.factor.T @ found.factor - gram) <= 1e-13 * np.outer(size, size))
+
+
 def test_pieces_are_the_whole() -> None:
     pieces = arx_windows([(Y[:1], U[:1]), (Y[1:7], U[1:7]), (Y[7:], U[7:])], LAGS)
     assert pieces.rows == whole().rows and pieces.samples == 60

@@ -85,7 +85,7 @@ def test_processes_decide_as_one_does() -> None:
 def test_a_task_that_asks_is_tried_again_when_that_is_there(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, carried: bool) -> None:
     """Each round makes what the one before asked for; a task that asks for nothing is done once."""
     shelf: Shelf = Carried() if carried else Folder(tmp_path)
-    monkeypatch.setattr(deciding, "Parallel", lambda **options: lambda calls: (call(*args, **names) for call, args, names in calls))
+    monkeypatch.setattr(deciding, "ordered", lambda call, tasks, count: (call(*each[:-1], each[-1].value) for each in tasks))
     tried: list[str] = []
 
     class Asking:

@@ -108,7 +108,7 @@ def test_a_file_of_another_kind_is_refused_and_left_as_it_is(tmp_path: Path, tex
     with pytest.raises(InvalidInput, match="expected a file that an earlier run kept its parts in"):
         said(TRUE, resume=file)
     assert file.read_text() == text
-    with pytest.raises(InvalidInput, match="No such file or directory"):
+    with pytest.raises(InvalidInput, match="no such file or directory"):
         said(TRUE, resume=tmp_path / "nowhere" / "kept.jsonl")
 
 

@@ -153,7 +153,7 @@ def test_alone_with_others_and_in_another_order_the_same_is_said(small: None, mo
     for task in TASKS:
         assert said([task]) == {task: whole[task]}
     assert said([TASKS[8], TASKS[1]]) == {task: whole[task] for task in (TASKS[8], TASKS[1])}
-    monkeypatch.setattr(deciding, "Parallel", lambda **options: lambda calls: (call(*args, **names) for call, args, names in calls))
+    monkeypatch.setattr(deciding, "ordered", lambda call, tasks, count: (call(*each[:-1], each[-1].value) for each in tasks))
     assert said(TASKS, Folder(tmp_path)) == said(TASKS, Carried()) == whole
     (tmp_path / "again").mkdir()
     assert said(TASKS[3:5], Folder(tmp_path / "again")) == {task: whole[task] for task in TASKS[3:5]}
