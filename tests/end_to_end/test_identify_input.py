@@ -123,7 +123,7 @@ def test_parquet_without_pyarrow_says_what_to_install(tmp_path: Path, monkeypatc
     def without(name: str) -> Any:
         raise ImportError(name)
 
-    monkeypatch.setattr("faultspace.numeric.data.files.import_module", without)
+    monkeypatch.setattr("faultspace.numeric.data.parts.import_module", without)
     path = tmp_path / "d.parquet"
     path.write_bytes(b"PAR1")
     refused(identified(path, tmp_path / "out"), "pyarrow", "faultspace[parquet]")

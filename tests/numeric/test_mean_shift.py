@@ -181,5 +181,5 @@ def test_what_the_gain_of_the_model_is_wrong_by_is_no_shift_where_the_inputs_res
             seen, seen_without = seen + (shifts and model is found), seen_without + (shifts and model is not found)
     assert without >= 6 and beside <= 2
     if move < 1.0:  # so near that the table does not leave the question open
-        assert seen_without >= 4
+        assert seen_without >= 3
     assert seen <= 2

@@ -229,7 +229,7 @@ REFUSED = [
     ("chosen == 1", "got chosen alone, expected a name after chosen."),
     ("chosen.P == 1", "got 'chosen.P', expected P alone"),
     ("P == 1", "a matrix == an integer"),
-    ("first.lag == 1", "expected .T of a matrix, or a name after chosen."),
+    ("first.lag == 1", "a word of claims about a pair, expected one of those about a choice"),
     ("k", "which is an integer"),
     ("choosen.lag == 1", "a name after chosen."),
 ]

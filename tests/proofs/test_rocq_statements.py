@@ -155,7 +155,7 @@ def test_the_words_of_a_statement_are_those_that_rocq_sees_in_it() -> None:
                     seen += 1
     for file, words in statements.words.items():
         text, names = texts[file].encode(), _resolved(theory, file)
-        for m in re.finditer(rb"^(?:Def|Fix|Rec|Not)\w+ (\w+).*?(?=\n\n|\n\(\*|\n[DFRNE])", text, re.MULTILINE | re.DOTALL):
+        for m in re.finditer(rb"^(?:Def|Fix|Rec|Not)\w+ (\w+).*?(?=\n\n|\n\(\*|\n[DFRNES])", text, re.MULTILINE | re.DOTALL):
             own = [word for name, word in words.items() if name.split(".")[-1] == m[1].decode() and m[1].decode() in word.text]
             reached = {word.key for one in own for word in statements.uses(one)} | {word.key for word in own}
             for at, module, name in names:

@@ -33,7 +33,7 @@ def _no_systems(monkeypatch: pytest.MonkeyPatch) -> None:
 
     expected = {reading.check: reading.expected for claim in load() for reading in claim.readings if claim.id == CLAIM}
 
-    def agrees(bench: object, tasks: Sequence[Check], *, elsewhere: bool) -> dict[Check, Answer]:
+    def agrees(bench: object, tasks: Sequence[Check], *, elsewhere: bool, kept: object) -> dict[Check, Answer]:
         return {task: Answer(Outcome(Verdict(expected[task.name]), "as expected"), 0.0) for task in tasks}
 
     monkeypatch.setattr(verification, "decided", agrees)

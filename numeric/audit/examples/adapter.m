@@ -2,7 +2,7 @@
 function ranks = window_ranks(r, windows, noisy = false)  % noisy: the rank is where the singular values drop most
   if any(! isfinite(r(:))), error("r has samples that are not finite"); end
   [N, p] = size(r);  r = r ./ max(sqrt(mean(r .^ 2)), realmin);  ranks = zeros(1, windows);
-  if N < (p + 1) * windows, error("%d samples are too few for %d windows", N, windows); end
+  if N < (p + 1) * windows - 1, error("%d samples are too few for %d windows", N, windows); end
   for s = 1:windows
     R = reshape(permute(reshape(r((1:s)' + (0:N-s), :), s, N - s + 1, p), [3 1 2]), p * s, []);
     sigma = svd(R);  ranks(s) = sum(sigma > 1e-11 * sigma(1));  % column k of R: r(k), ..., r(k+s-1)
@@ -16,7 +16,7 @@ while true
     switch q.call
       case "functions",       a.functions = {"window_ranks", "fault_dimension"};
       case "window_ranks",    a.ranks = num2cell(window_ranks(q.r, q.windows));
-      case "fault_dimension", a.n_v = diff(window_ranks(q.r, 11, true))(end);
+      case "fault_dimension", a.n_v = diff(window_ranks(q.r, min(11, floor((rows(q.r) + 1) / (columns(q.r) + 1))), true))(end);
     end
   catch e, a = struct("refused", e.message); end
   puts([jsonencode(a) "\n"]); fflush(stdout); clear a

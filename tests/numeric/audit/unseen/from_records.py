@@ -104,12 +104,12 @@ def cuts_to_the_shorter(y: Any, u: Any, order: int) -> Any:
 
 @FOUND.broken("models whose C is not of that size", explains(ONE_Y, ONE_U, 1, 1, ONE, 0.02))
 def returns_columns_in_other_states(y: Any, u: Any, order: int, n_v: int) -> Answer:
-    """The model is scaled so that the largest entry of C is one, and the columns stay in the states before."""
+    """The model is scaled so that the largest entry of C is a tenth, and the columns stay in the states before."""
     found = reference.identified_fault_space(y, u, order, n_v)
     if found is None:
         return None
     A, C, Z = found
-    size = np.max(np.abs(C), axis=0)
+    size = 10 * np.max(np.abs(C), axis=0)
     return A * size[:, None] / size, C / size, Z
 
 
