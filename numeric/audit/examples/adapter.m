@@ -16,7 +16,10 @@ while true
     switch q.call
       case "functions",       a.functions = {"window_ranks", "fault_dimension"};
       case "window_ranks",    a.ranks = num2cell(window_ranks(q.r, q.windows));
-      case "fault_dimension", a.n_v = diff(window_ranks(q.r, min(11, floor((rows(q.r) + 1) / (columns(q.r) + 1))), true))(end);
+      case "fault_dimension"  % at the longest window that the record fills, of 11 at most
+        s = min(11, floor((rows(q.r) + 1) / (columns(q.r) + 1)));
+        if s < 3, error("%d samples are too few", rows(q.r)); end
+        a.n_v = diff(window_ranks(q.r, s, true))(end);
     end
   catch e, a = struct("refused", e.message); end
   puts([jsonencode(a) "\n"]); fflush(stdout); clear a
