@@ -181,13 +181,16 @@ def _opened(
 def _even(pieces: Iterator[Array]) -> Iterator[Array]:
     """Yield the same rows PIECE at a time, so that no sum of them depends on how a file is laid out, or in which parts it came."""
     kept: list[Array] = []
+    held = 0
     for rows in pieces:
         kept.append(rows)
-        while sum(map(len, kept)) >= PIECE:
+        held += len(rows)
+        if held >= PIECE:
             together = np.concatenate(kept)
-            yield together[:PIECE]
-            kept = [together[PIECE:]]
-    if sum(map(len, kept)):
+            whole = held - held % PIECE
+            yield from (together[start : start + PIECE] for start in range(0, whole, PIECE))
+            kept, held = [together[whole:].copy()], held - whole
+    if held:
         yield np.concatenate(kept)
 
 

@@ -150,13 +150,14 @@ def _sections(data: Iterable[tuple[Array, Array]], lags: int) -> Iterator[tuple[
                 f"a piece has {counted(u.shape[1], 'input')} and {counted(y.shape[1], 'output')} "
                 f"where the first has {first[1]} and {first[0]}: all need the same"
             )
-        kept.append((y, u))
-        held += len(y)
-        while held > SECTION + lags:  # one sample more, so that no section is empty
-            whole_y, whole_u = (np.concatenate(parts) for parts in zip(*kept, strict=True))
-            yield whole_y[: SECTION + lags], whole_u[: SECTION + lags], lags
-            kept = [(whole_y[SECTION:], whole_u[SECTION:])]
-            held -= SECTION
+        for start in range(0, max(len(y), 1), PIECE):  # so that no more than a section is copied at once
+            kept.append((y[start : start + PIECE], u[start : start + PIECE]))
+            held += len(kept[-1][0])
+            while held > SECTION + lags:  # one sample more, so that no section is empty
+                whole_y, whole_u = (np.concatenate(parts) for parts in zip(*kept, strict=True))
+                yield whole_y[: SECTION + lags], whole_u[: SECTION + lags], lags
+                kept = [(whole_y[SECTION:].copy(), whole_u[SECTION:].copy())]
+                held -= SECTION
     if not kept:
         raise InvalidData("no data: the iterable of pieces (y, u) is empty")
     y, u = (np.concatenate(parts) for parts in zip(*kept, strict=True))

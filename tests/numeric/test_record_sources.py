@@ -29,7 +29,10 @@ from faultspace.numeric import (
     read_record,
     residual,
 )
+from faultspace.numeric.data import files
 from faultspace.numeric.data.records import Record
+from faultspace.numeric.data.validation import PIECE
+from faultspace.numeric.model import arx_windows
 from faultspace.numeric.report.folders import MANIFEST
 
 N = 2500
@@ -209,3 +212,38 @@ def test_the_record_draws_its_signal_into_the_axes_given(wanted: Any) -> None:
     assert "order undecided" in repr(without)
     with pytest.raises(InvalidData, match="nothing to draw"):
         without.plot()
+
+
+def copied(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Return the rows that each call of `concatenate` copies from now on."""
+    rows, plain = list[int](), np.concatenate
+
+    def counting(parts: Any, *rest: Any, **more: Any) -> Any:
+        found = plain(parts, *rest, **more)
+        rows.append(len(found))
+        return found
+
+    monkeypatch.setattr(np, "concatenate", counting)
+    return rows
+
+
+@pytest.mark.parametrize("length", [1, 7, files.PIECE - 1, files.PIECE, 3 * files.PIECE + 5, 6 * files.PIECE])
+def test_rows_come_in_even_pieces_and_none_is_copied_often(length: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    numbered = np.arange(5 * files.PIECE + 3.0)[:, None]
+    came = [numbered[start : start + length] for start in range(0, len(numbered), length)]
+    rows = copied(monkeypatch)
+    even = list(files._even(iter([numbered[:0], *came])))
+    assert [len(one) for one in even] == [files.PIECE] * 5 + [3]
+    assert sum(rows) <= 2 * len(numbered)
+    monkeypatch.undo()
+    assert np.array_equal(np.concatenate(even), numbered)
+
+
+def test_of_a_long_piece_no_more_than_a_section_is_copied_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(arx_windows, "SECTION", 2 * PIECE)
+    lags, y = 3, np.arange(20 * PIECE + 1.0)[:, None]
+    rows = copied(monkeypatch)
+    sections = list(arx_windows._sections([(y, -y)], lags))
+    assert [len(one) for one, _, _ in sections] == [arx_windows.SECTION + lags] * 9 + [2 * PIECE + 1]
+    assert max(rows) <= arx_windows.SECTION + PIECE + lags
+    assert all(np.array_equal(before[-lags:], after[:lags]) for (before, _, _), (after, _, _) in pairwise(sections))
