@@ -123,11 +123,11 @@ def regression(s: Json, w: Json) -> Terms:
     before = about.observability().columns(range(p * (window - 1)))
     shown = [about.shown(w, table, size, about.nulls(table)) for table, size in ((about.moments(P, U, U), nu * window), (before, n))]
     sizes = n, read.m, p, nu, about.channels, window
-    states, noises, faults, channels, samples = (natural(x) for x in (n, p, read.m, about.channels, window))
-    process = f"stationary_process (experiment_of value {states} {faults} {noises} {natural(nu)} {channels} E) Q {samples} e x st u y"
+    states, faults, outputs, channels, samples = (natural(x) for x in (n, read.m, p, about.channels, window))
+    process = f"stationary_process (experiment_of value {states} {faults} {outputs} {natural(nu)} {channels} E) Q {samples} e x st u y"
     Uf = f"(future 0 {samples} u)"
-    rest = f"regression_rest (system_of value {states} {faults} {noises} (tplant E)) M"
-    B0, D0 = f"(matrix_of value {natural(nu)} {states} B)", f"(matrix_of value {natural(nu)} {noises} D)"
+    rest = f"regression_rest (system_of value {states} {faults} {outputs} (tplant E)) M"
+    B0, D0 = f"(matrix_of value {natural(nu)} {states} B)", f"(matrix_of value {natural(nu)} {outputs} D)"
     least = f"squares ({rest} {B0} {D0} X) <= squares ({rest} B' D' X')"
     alone = f"squares ({rest} B' D' X') <= squares ({rest} {B0} {D0} X) -> B' = {B0} /\\ D' = {D0}"
     return Terms(

@@ -196,12 +196,16 @@ def input_forgeries(regression: Certificate, output_error: Certificate) -> list[
         if number is not None:
             wrong = term.replace(number.group(0), f"({number.group(1)} + 1, {number.group(2)})", 1)
         found.append((f"{what}, {name}", with_term(terms, name, wrong)))
+    for what, terms in ("regression", made[0][2]), ("output error", made[-1][2]):
+        found.append((f"{what}, no root inside the circle", with_term(terms, "h", "[:: 1]")))
+    for name in "shown0", "shown1":
+        found.append((f"regression, {name}", with_term(made[0][2], name, "([::], [::])")))
     return found
 
 
 @needs_rocq
 def test_inputs_by_either_regression_are_recomputed_and_no_others() -> None:
-    """Every table of the terms is looked at: with one entry more by one the check is false."""
+    """Every table of the terms is looked at: with one entry more by one the check is false, and so are stability and both ranks."""
     questions = Questions()
     found = limit(experiment())
     true = [written(make_inputs(found)) for make_inputs in (moesp_inputs, output_error_inputs)]
@@ -210,4 +214,24 @@ def test_inputs_by_either_regression_are_recomputed_and_no_others() -> None:
         questions.ask(asked(translated(certificate)), True, certificate["statement"]["regression"])
     for name, terms in input_forgeries(*true):
         questions.ask(asked(terms), False, name)
+    assert questions.wrong() == []
+
+
+TWO_INPUTS: dict[str, Any] = {
+    "A": [["1/2", 1], [0, "1/3"]], "B": [[1, 0], [0, 1]], "F": [[1], [0]], "C": [[1, 0], [0, 1]], "G": [[0], [1]], "D": [[1, 0], [0, 1]],
+    "n": 2, "m": 1, "p": 2, "nu": 2, "u_filter": [[[1, 0], [0, 1]]], "v_filter": [[["1/2", 0]], [["1/3", 1]]], "s": 3, "past": 3,
+}  # fmt: skip
+
+
+@needs_rocq
+def test_inputs_of_degenerate_experiments_and_of_several_inputs() -> None:
+    questions = Questions()
+    for name, changes in {**DEGENERATE, "two inputs": TWO_INPUTS}.items():
+        found = limit(experiment(**changes))
+        for certificate in map(written, (moesp_inputs(found), output_error_inputs(found))):
+            checker.verify(certificate)
+            questions.ask(asked(translated(certificate)), True, name)
+            for matrix in "B", "D":
+                if certificate["statement"][matrix]:
+                    questions.ask(asked(translated(spoiled(certificate, (f"statement.{matrix}.0.0", "7/3")))), False, f"{name}, {matrix}")
     assert questions.wrong() == []
