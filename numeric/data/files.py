@@ -49,7 +49,7 @@ from .parts import ParquetParts, parts_of
 from .records import Record, RecordWriter
 from .selectors import labels_of, missing, named_once, picked, split_names
 from .text_tables import TextTable
-from .validation import first_not_finite
+from .validation import PIECE, first_not_finite
 
 OnRead = Callable[[int, int], None]
 
@@ -58,7 +58,6 @@ FORMATS = {
     ".parquet": "Parquet", ".pq": "Parquet", ".npz": "NPZ", ".npy": "NPY", ".mat": "MAT",
 }  # fmt: skip
 MATRIX = "data"
-PIECE = 1 << 14  # samples converted at once
 MAPPED = 1 << 20  # bytes of an array above which it is mapped, not read
 
 

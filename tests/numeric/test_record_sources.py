@@ -227,13 +227,13 @@ def copied(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     return rows
 
 
-@pytest.mark.parametrize("length", [1, 7, files.PIECE - 1, files.PIECE, 3 * files.PIECE + 5, 6 * files.PIECE])
+@pytest.mark.parametrize("length", [1, 7, PIECE - 1, PIECE, 3 * PIECE + 5, 6 * PIECE])
 def test_rows_come_in_even_pieces_and_none_is_copied_often(length: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    numbered = np.arange(5 * files.PIECE + 3.0)[:, None]
+    numbered = np.arange(5 * PIECE + 3.0)[:, None]
     came = [numbered[start : start + length] for start in range(0, len(numbered), length)]
     rows = copied(monkeypatch)
     even = list(files._even(iter([numbered[:0], *came])))
-    assert [len(one) for one in even] == [files.PIECE] * 5 + [3]
+    assert [len(one) for one in even] == [PIECE] * 5 + [3]
     assert sum(rows) <= 2 * len(numbered)
     monkeypatch.undo()
     assert np.array_equal(np.concatenate(even), numbered)
