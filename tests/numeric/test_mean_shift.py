@@ -166,7 +166,7 @@ def test_a_fault_that_varies_at_one_output_leans_into_no_other(kind: str) -> Non
 def test_what_the_gain_of_the_model_is_wrong_by_is_no_shift_where_the_inputs_rest_elsewhere(move: float) -> None:
     plant = StateSpaceModel([[0.8]], [[1.0]], [[1.0], [-0.5]], [[0.0], [0.0]])
     K, without, beside, seen, seen_without = 150, 0, 0, 0, 0
-    for k in range(12):
+    for k in range(14):
         draw = np.random.default_rng([5, k])
         u = draw.standard_normal((450, 1))
         u[K:] += move
@@ -181,5 +181,5 @@ def test_what_the_gain_of_the_model_is_wrong_by_is_no_shift_where_the_inputs_res
             seen, seen_without = seen + (shifts and model is found), seen_without + (shifts and model is not found)
     assert without >= 6 and beside <= 2
     if move < 1.0:  # so near that the table does not leave the question open
-        assert seen_without >= 3
+        assert seen_without >= 4
     assert seen <= 2
