@@ -31,7 +31,7 @@ nothing.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -321,11 +321,14 @@ def _apart(samples: int, tapers: int) -> NDArray[np.int_]:
 
 
 def _around(e: Array, tapers: int, centres: NDArray[np.int_]) -> Spectra:
+    """Return the transforms at these centres; channel by channel, so that the plain transform of one alone is held."""
     samples, p = e.shape
-    plain = np.fft.fft(np.vstack([np.zeros((1, p)), e]), n=2 * (samples + 1), axis=0)
     shifts = np.arange(1, tapers + 1)
-    above, below = plain[centres[:, None] + shifts], plain[centres[:, None] - shifts]
-    return Spectra(centres / (2.0 * (samples + 1)), (below - above) / (2j * np.sqrt((samples + 1) / 2.0)))
+    found = np.empty((len(centres), tapers, p), complex)
+    for channel in range(p):
+        plain = np.fft.rfft(np.concatenate([[0.0], e[:, channel]]), n=2 * (samples + 1))
+        found[:, :, channel] = plain[centres[:, None] - shifts] - plain[centres[:, None] + shifts]
+    return Spectra(centres / (2.0 * (samples + 1)), found / (2j * np.sqrt((samples + 1) / 2.0)))
 
 
 def residual_and_inputs(r: ArrayLike, u: ArrayLike | None) -> tuple[Array, Array]:
@@ -353,17 +356,26 @@ def _about_means(past: Array, now: Array) -> tuple[Array, Array]:
 
 
 def _triangle(r: Array, u: Array, lags: int) -> Array:
-    """Return the triangle of [u(k), r(k-1) u(k-1) .. r(k-lags) u(k-lags), r(k)] over k = lags .. N - 1: fewer lags are leading columns.
+    """Return the triangle of [u(k), r(k-1) u(k-1) .. r(k-lags) u(k-lags), r(k)] over k = lags .. N - 1: fewer lags are leading columns."""
+    split = (r.shape[1] + u.shape[1]) * lags
+    return stacked_triangle(np.hstack([past[:, split:], past[:, :split], now]) for past, now in lagged_stretches(r, u, lags))
 
-    The rows come STRETCH at a time, so that memory does not grow with the record.
-    """
-    triangle = np.zeros((0, u.shape[1] + (r.shape[1] + u.shape[1]) * lags + r.shape[1]))
+
+def lagged_stretches(r: Array, u: Array, lags: int) -> Iterator[tuple[Array, Array]]:
+    """Yield what `lagged` returns, at most STRETCH rows at a time, so that memory does not grow with the record; at least once."""
     for start in range(0, max(len(r) - lags, 1), STRETCH):
         stretch = slice(start, start + STRETCH + lags)
-        past, now = lagged(r[stretch], u[stretch], lags)
-        split = past.shape[1] - u.shape[1]
-        rows = np.vstack([triangle, np.hstack([past[:, split:], past[:, :split], now])])
-        triangle = np.asarray(scipy.linalg.qr(rows, mode="r", overwrite_a=True, check_finite=False)[0])[: rows.shape[1]]
+        yield lagged(r[stretch], u[stretch], lags)
+
+
+def stacked_triangle(blocks: Iterable[Array]) -> Array:
+    """Return the triangle R of the QR factorisation of these blocks of rows, one below the other: as many rows as columns, or fewer."""
+    triangle: Array | None = None
+    for block in blocks:
+        rows = block if triangle is None else np.vstack([triangle, block])
+        triangle = np.asarray(scipy.linalg.qr(rows, mode="r", check_finite=False)[0])[: rows.shape[1]]
+    if triangle is None:
+        raise ValueError("no block of rows")
     return triangle
 
 

@@ -22,6 +22,7 @@ Units: inside, every channel is about its healthy mean and in units of its healt
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -30,7 +31,7 @@ import scipy.linalg
 from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ...base.sheets import counted
-from ..count.healthy_model import lagged, number_of_lags
+from ..count.healthy_model import lagged_stretches, number_of_lags, stacked_triangle
 from ..model.models import StateSpaceModel, observability_matrix
 
 CANDIDATES = (1e-6, 1e-4, 1e-2, 1.0, 1e2)  # for q, beside 0
@@ -139,22 +140,20 @@ def innovation_form(model: StateSpaceModel, y: Array, u: Array, *, with_inputs: 
             "healthy: an output is an exact combination of others and of their past, so that there is no noise to hold a stream "
             "against: leave that output out"
         ) from None
-    past, now = lagged(e, pushed, lags)
-    X = np.hstack([np.ones((len(now), 1)), past])
-    count, spent = X.shape
+    count, spent = len(e) - lags, 1 + lags * (e.shape[1] + pushed.shape[1]) + pushed.shape[1]
     if count < FOLDS * (spent + len(e[0]) + 1):
         raise InvalidData(
             f"healthy: got {counted(len(y), 'sample')}, with {count} left for {counted(spent, 'parameter')} an output; at least "
             f"{len(y) - count + FOLDS * (spent + len(e[0]) + 1)} are needed: give a longer record without fault"
         )
-    coefficients, covariance = _regression(X, now)
-    judged = np.empty_like(now)
-    single = np.empty_like(now)
-    for part in np.array_split(np.arange(count), FOLDS):
-        others = np.ones(count, bool)
-        others[part] = False
-        known, spread = _regression(X[others], now[others])
-        forecast = now[part] - X[part] @ known
+    parts = [slice(int(part[0]), int(part[-1]) + 1) for part in np.array_split(np.arange(count), FOLDS)]
+    triangles = [stacked_triangle(np.hstack(rows) for rows in _rows(e, pushed, lags, part)) for part in parts]
+    coefficients, covariance = _regression(triangles, spent, count)
+    judged = np.empty((count, e.shape[1]))
+    single = np.empty_like(judged)
+    for k, part in enumerate(parts):
+        known, spread = _regression(triangles[:k] + triangles[k + 1 :], spent, count - (part.stop - part.start))
+        forecast = np.vstack([now - X @ known for X, now in _rows(e, pushed, lags, part)])
         judged[part] = scipy.linalg.solve_triangular(np.linalg.cholesky(spread), forecast.T, lower=True).T
         single[part] = forecast / np.sqrt(np.diag(spread))
     whitening = _Whitening(coefficients, covariance, lags, pushed.shape[1])
@@ -232,11 +231,22 @@ def _settled(model: StateSpaceModel, gain: Array, e: Array, first: int) -> Array
     return settled
 
 
-def _regression(X: Array, now: Array) -> tuple[Array, Array]:
-    """Return coefficients (q, p), and the covariance (p, p) that a forecast's error has on average, the error of the coefficients in it."""
+def _rows(e: Array, pushed: Array, lags: int, part: slice) -> Iterator[tuple[Array, Array]]:
+    """Yield [1 e(k-1) u(k-1) .. e(k-lags) u(k-lags) u(k)] and e(k) for k - lags in the part, in stretches of bounded length."""
+    seen = slice(part.start, part.stop + lags)
+    for past, now in lagged_stretches(e[seen], pushed[seen], lags):
+        yield np.hstack([np.ones((len(now), 1)), past]), now
+
+
+def _regression(triangles: Sequence[Array], spent: int, count: int) -> tuple[Array, Array]:
+    """Return coefficients (q, p), and the covariance (p, p) that a forecast's error has on average, the error of the coefficients in it.
+
+    The triangles are of `count` rows together, `spent` columns of regressors and then those of what is explained.
+    """
+    whole = stacked_triangle(triangles)
+    X, now = whole[:, :spent], whole[:, spent:]
     coefficients = np.linalg.lstsq(X, now, rcond=None)[0]
     e = now - X @ coefficients
-    count, spent = X.shape
     return np.asarray(coefficients), np.asarray(e.T @ e / (count - spent) * (1 + spent / count))
 
 
