@@ -5,6 +5,7 @@ fault_vectors        zeros at infinity and outside the unit circle, uncontrollab
 unexciting_vectors   a constant, a sine, two faults in proportion
 noisy_vectors        white noise far below the least singular value
 singular_values      certified
+enclosed_values      the same from the square of the matrix
 """
 
 from __future__ import annotations
@@ -190,7 +191,12 @@ def singular_values(H: Matrix) -> tuple[float, float]:
     """Return (below the least nonzero, above the largest) singular value of H, certified: root enclosures of the exact polynomial of H
     H'.
     """
-    polynomial = (H @ H.transposed()).flint.charpoly()
+    return enclosed_values(H @ H.transposed())
+
+
+def enclosed_values(square: Matrix) -> tuple[float, float]:
+    """Return the same of any H with this square H H' or H' H."""
+    polynomial = square.flint.charpoly()
     enclosures = [root.real for root, _ in polynomial.numer().complex_roots() if not root.contains(0)]
     lowest, highest = min(float(one.lower()) for one in enclosures), max(float(one.upper()) for one in enclosures)
     # One rounding of the root and of writing three digits: a thousandth away on the safe side.

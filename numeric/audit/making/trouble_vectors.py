@@ -36,6 +36,7 @@ from .fault_records import leading_signal_bound, residual_bound, signal_bound, s
 from .kinds_of_trouble import COUNT, MODEL, RANKS, RESIDUAL, SIGNAL, SPACE, STRUCTURE, Kind
 from .model_bounds import model_bounds, telling
 from .planting import digits
+from .space_conditions import conditions_clear
 
 ATTEMPTS = 100
 APART, LEADING = 1.25, 3  # zeros so far outside let the end of a record disturb its first third by nothing that counts
@@ -206,7 +207,13 @@ def _faults(kind: Kind, system: ResidualSystem, known: Structure, rng: Random) -
     blank = FaultVector(kind.slug, AS_GIVEN, system, x0, v, ranks, gaps, m, basis, lag, trusted, {}, {})
     if not blank.clear:
         raise Unsuitable("rounding hides a rank")
+    if SPACE in kind.asks and not all(conditions_clear(r, system, s) for s in _space_windows(lag, n)):
+        raise Unsuitable("rounding hides a condition of the fault space")
     return blank
+
+
+def _space_windows(lag: int, n: int) -> list[int]:
+    return sorted({lag + 1, n + 1})
 
 
 def _bounded_faults(vector: FaultVector, kind: Kind) -> FaultVector:
@@ -215,7 +222,7 @@ def _bounded_faults(vector: FaultVector, kind: Kind) -> FaultVector:
         "residual": residual_bound(r, system, Fraction(1)) if RESIDUAL in asked else None,
         "signal": _signal_bound(vector) if SIGNAL in asked else None,
     }
-    windows = sorted({vector.lag + 1, system.n + 1}) if SPACE in asked else []
+    windows = _space_windows(vector.lag, system.n) if SPACE in asked else []
     return replace(vector, bounds=bounds, space_bounds={s: space_bound(r, system, s) for s in windows})
 
 

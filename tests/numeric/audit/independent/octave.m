@@ -143,11 +143,14 @@ function Z = fault_space(r, A, C, n_v, s)
   before = 0;
   if s > 1, R = factor_of(hankel_rows(r, s - 1));  before = rank_of(R, rounding_of(R, rows(r))); end
   if k - before != n_v, error("%d faults do not show in these data: the rank grows by %d", n_v, k - before); end
-  turned = eps;
-  if k > 0, turned = max(eps, t / sigma(k)); end
+  turned = 16 * eps;
+  if k > 0, turned = max(turned, t / sigma(k)); end
+  O = observability(A, C, s);  cancelled = 0;  % what cancels in C A^k leaves its rounding
+  for j = 0:s-1, cancelled += norm(A ^ j, "fro"); end
+  cancelled *= norm(abs(O) * abs(A), "fro");
   M = equations(V(:, k+1:end)', A, C, s);
   [~, S, V] = svd([M; zeros(n + p)]);
-  Z = V(:, sum(diag(S) > 16 * turned * (1 + norm(M, "fro"))) + 1 : end);
+  Z = V(:, sum(diag(S) > turned * (1 + norm(O, "fro")) + 16 * eps * cancelled) + 1 : end);
   Z = [of_x .* Z(1:n, :); of_r' .* Z(n+1:end, :)];
 end
 
@@ -157,7 +160,7 @@ function v = reconstruct(r, A, F, C, G, x)
   [N, p] = size(r);  n = rows(A);  m = columns(F);
   if p != rows(C) || numel(x) != n || ! all(isfinite(x)), error("r, the model and x0 do not fit"); end
   of_r = sizes([C, G]')';  of_v = sizes([F; G]);  r = r ./ of_r';  C = C ./ of_r;  G = G ./ of_r ./ of_v;  F = F ./ of_v;
-  s = min(2*n + 2, N);  O = observability(A, C, s);  column = [G; O(1:(s-1)*p, :) * F];  T = zeros(s*p, s*m);
+  s = min(16*(n + 1), N);  O = observability(A, C, s);  column = [G; O(1:(s-1)*p, :) * F];  T = zeros(s*p, s*m);
   for j = 1:s, T((j-1)*p+1:end, (j-1)*m+1 : j*m) = column(1:(s-j+1)*p, :); end
   if rank_of(T) - rank_of(T(p+1:end, m+1:end)) < m, error("the system is not left-invertible: the signal is not determined"); end
   inverse = pinv(T, 16 * eps * sqrt(numel(T)) * norm(T));

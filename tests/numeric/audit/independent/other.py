@@ -117,7 +117,7 @@ def _echelon(triangle: Array, p: int, floor: float) -> tuple[list[int | None], l
     """Return for each channel the first window in which it is not new (None: always new), and the polynomials of those that are not.
 
     Rows that depend on others are left out of what follows: the triangle is made again of those that are new. With each polynomial comes
-    the factor by which solving for it enlarges rounding.
+    the factor by which rounding turns it more than it moves the rows.
     """
     degree: list[int | None] = [None] * p
     new: list[int] = []
@@ -144,7 +144,7 @@ def _echelon(triangle: Array, p: int, floor: float) -> tuple[list[int | None], l
         row = np.zeros(j // p * p + p)
         row[j] = 1.0
         row[new] = -coefficients
-        enlarged = 1.0 / float(np.linalg.svd(of_new, compute_uv=False)[-1]) if new else 1.0
+        enlarged = 1.0 / float(np.linalg.svd(triangle[:, [*new, j]], compute_uv=False)[-2]) if new else 1.0
         polynomials.append((row.reshape(-1, p) / np.linalg.norm(row), max(1.0, enlarged * float(np.linalg.norm(triangle)))))
     return degree, polynomials
 
@@ -356,7 +356,10 @@ def fault_space(r: Array, A: Array, C: Array, n_v: int, block_rows: int) -> Arra
         return np.eye(n + p)
     turned = max(enlarged for _, enlarged in polynomials) * EPS * SAFETY
     M = np.vstack(rows)
-    basis = _split(M, min(turned * (1 + np.linalg.norm(M)), 1e-3))[1]
+    powers = [np.linalg.matrix_power(A, i) for i in range(s + n)]
+    carried = np.linalg.norm(np.vstack([np.eye(p, n), *(C @ one for one in powers[:s])]))
+    cancelled = np.linalg.norm(np.abs(M[:, :n]) @ np.abs(A)) * sum(np.linalg.norm(one) for one in powers)
+    basis = _split(M, turned * (1 + carried) + EPS * SAFETY * cancelled)[1]
     return np.vstack([of_x[:, None] * basis[:n], of_r[:, None] * basis[n:]])
 
 
@@ -402,7 +405,7 @@ def _last_step(A: Array, F: Array, C: Array, G: Array, S: Array) -> tuple[Array,
     n, m = len(A), F.shape[1]
     of_v, of_x = np.vstack([G, S @ F]), np.vstack([C, S @ A])
     U, sigma, V = np.linalg.svd(of_v)
-    k = int(np.sum(sigma > _floor(of_v))) if m else 0
+    k = int(np.sum(sigma > _floor(np.vstack([G, np.abs(S) @ np.abs(F)])))) if m else 0
     inverse = V[:k].T @ (U[:, :k].T / sigma[:k, None])
     rest = U[:, k:].T
     Q, R = np.linalg.qr(rest @ of_x)
@@ -443,6 +446,22 @@ def _reached(A: Array, F: Array, C: Array, G: Array, tolerance: float) -> list[A
         chain.append(S)
 
 
+def _nearer(A: Array, F: Array, C: Array, G: Array, zero: complex) -> complex:
+    """Return what two steps of Newton's method make of a simple zero; where it is not simple, what is close to it stays as it is."""
+    n, slope = len(A), np.zeros((len(A) + len(C), len(A) + F.shape[1]))
+    slope[:n, :n] = np.eye(n)
+    for _ in range(2):
+        U, sigma, V = np.linalg.svd(np.block([[zero * np.eye(n) - A, -F], [C, G]]))
+        last = len(V) - 1
+        left, right = U[:, last].conj(), V[last].conj()
+        change = left @ slope @ right
+        step = sigma[last] / change if abs(change) > np.sqrt(EPS) else 0.0
+        if abs(step) > 1e-3 * max(1.0, abs(zero)):
+            break
+        zero = zero - step
+    return complex(zero)
+
+
 def structure(A: Array, F: Array, C: Array, G: Array) -> dict[str, Any]:
     A, F, C, G = _system(A, F, C, G)
     (p, m), n = G.shape, len(A)
@@ -458,8 +477,8 @@ def structure(A: Array, F: Array, C: Array, G: Array) -> dict[str, Any]:
         C, G = C / of_r[:, None], G / of_r[:, None]
     whole = np.block([[A, F], [C, G]])
     tolerance = _floor(whole) * (n + 1)
-    V, tolerance = _output_nulling(A, F, C, G, tolerance)
     chain = _reached(A, F, C, G, tolerance)
+    V, tolerance = _output_nulling(A, F, C, G, tolerance)
     dimensions = [_rank(np.hstack([V, S]), tolerance) for S in [np.empty((n, 0)), *chain]]
     at_least = np.diff(dimensions)  # infinite zeros of order 1 and more, 2 and more, ...
     # The inputs that keep V* within itself and the output at zero, less those that reach R*, are lost to the output; all others are seen.
@@ -476,10 +495,10 @@ def structure(A: Array, F: Array, C: Array, G: Array) -> dict[str, Any]:
     left = np.block([[basis, -F], [np.zeros((p, d)), -G]])
     X = np.linalg.lstsq(left, np.vstack([A @ basis, C @ basis]), rcond=tolerance)[0][:d] if d else np.empty((0, 0))
     c = controlled.shape[1]
-    zeros = np.linalg.eigvals(X[c:, c:])
+    zeros = [_nearer(A, F, C, G, complex(z)) if normal_rank == m else complex(z) for z in np.linalg.eigvals(X[c:, c:])]
     return {
         "normal_rank": normal_rank,
-        "finite_zeros": [complex(z) for z in zeros],
+        "finite_zeros": zeros,
         "infinite_zero_orders": orders,
         "left_invertible": normal_rank == m,
     }

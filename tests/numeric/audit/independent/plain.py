@@ -253,7 +253,9 @@ def fault_space(r: Array, A: Array, C: Array, n_v: int, block_rows: int) -> Arra
         raise ValueError(f"{n_v} faults do not show in these data: the rank grows by {growth} at {s} block rows")
     M = _equations(kernel, A, C, s)
     _, sigma, V = np.linalg.svd(np.vstack([M, np.zeros((n + p, n + p))]))
-    span = int(np.sum(sigma > max(turned, EPS) * SAFETY * (1 + np.linalg.norm(M))))
+    response = _observability(A, C, s)
+    cancelled = np.linalg.norm(np.abs(response) @ np.abs(A)) * sum(np.linalg.norm(np.linalg.matrix_power(A, k)) for k in range(s))
+    span = int(np.sum(sigma > max(turned, EPS * SAFETY) * (1 + np.linalg.norm(response)) + EPS * SAFETY * cancelled))
     basis = V[span:].T
     return np.vstack([of_x[:, None] * basis[:n], of_r[:, None] * basis[n:]])
 
@@ -279,7 +281,7 @@ def reconstruct(r: Array, A: Array, F: Array, C: Array, G: Array, x0: Array) -> 
         raise ValueError("r, the model and x0 do not fit")
     of_r, of_v = _sizes(np.hstack([C, G]).T), _sizes(np.vstack([F, G]))
     r, C, G, F = r / of_r, C / of_r[:, None], G / of_r[:, None] / of_v, F / of_v
-    s = min(2 * n + 2, N)
+    s = min(16 * (n + 1), N)  # short windows leave the state to a recursion that may grow
     T = _toeplitz(A, F, C, G, s)
     if m and _rank(T) - _rank(T[p:, m:]) < m:
         raise ValueError("the system is not left-invertible, or the record is shorter than its delay: the signal is not determined")
