@@ -21,13 +21,16 @@ def conjecture(
     by: Annotated[
         list[str] | None, typer.Option(metavar="Q", help="Seek bounds by this quantity alone, and others so named.", show_default="all")
     ] = None,
+    about: Annotated[
+        str, typer.Option(metavar="KIND", help="What is bounded: system, pair, 'pair with the same (A, C)', choice or record.")
+    ] = "system",
     field: Annotated[str, typer.Option(metavar="FIELD", help="Q, or GF(q).")] = "Q",
     box: Annotated[
         list[str] | None,
-        typer.Option(metavar="KEY=VALUE", help="As n=1:3, m=1:2, p=1:3, total=5, entries=-1,0,1; may be repeated.", show_default=False),
+        typer.Option(metavar="KEY=VALUE", help="As n=1:3, total=5, entries=-1,0,1, or k, nu, N; may be repeated.", show_default=False),
     ] = None,
     terms: Annotated[
-        int | None, typer.Option(metavar="K", parser=number(int, 1, 2), help="Quantities in a bound.", show_default="3")
+        int | None, typer.Option(metavar="K", parser=number(int, 1, 2), help="Quantities in a bound.", show_default="3, or 2")
     ] = None,
     largest: Annotated[
         int | None, typer.Option(metavar="K", parser=number(int, 1, 1), help="Largest coefficient.", show_default="2")
@@ -35,7 +38,7 @@ def conjecture(
     constant: Annotated[int | None, typer.Option(metavar="K", parser=number(int, 0, 1), help="Largest constant.", show_default="2")] = None,
     most: Annotated[
         int | None,
-        typer.Option(metavar="K", parser=number(int, 1, 10**9), help="Go through no more systems of the box.", show_default="10^9"),
+        typer.Option(metavar="K", parser=number(int, 1, 10**9), help="Go through no more of the box.", show_default="10^9"),
     ] = None,
     jobs: Annotated[int, typer.Option(metavar="K", parser=jobs_number, help="Processes at a time, for large boxes.")] = 1,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the certificates there.", show_default=False)] = None,
@@ -43,8 +46,9 @@ def conjecture(
 ) -> int:
     """Seek bounds that nothing refutes.
 
-    What is answered is refuted by nothing that was tried and attained by a system, none is implied by the others, and the
-    next sharper ones come with the smallest system that refutes them. It is no proof; docs/your-claims.md tells the language.
+    What is answered is refuted by nothing that was tried and attained by a system (a pair, a choice, a record), none is implied
+    by the others, and the next sharper ones come with the smallest one that refutes them. It is no proof; docs/your-claims.md
+    tells the language.
     """
     from . import conjecturing
 
@@ -53,6 +57,7 @@ def conjecture(
         target,
         under=under or [],
         by=by or [],
+        about=about,
         field=field,
         sizes=box or [],
         numbers=numbers,

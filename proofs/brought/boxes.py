@@ -73,6 +73,11 @@ class Box:
         """What they are called."""
         return "systems"
 
+    @property
+    def one(self) -> str:
+        """What one of them is called."""
+        return "system"
+
     def sizes(self) -> list[Sizes]:
         """Return the (n, m, p) of the box in order."""
         n, m, p = (range(low, high + 1) for low, high in (self.n, self.m, self.p))

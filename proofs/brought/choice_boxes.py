@@ -1,6 +1,7 @@
 """A box of small systems with the choices P of their fault columns, gone through in order.
 
     ChoiceBox     bounds on n, m, p of the system and on k, the number of columns of P; the entries of P are those of the box, too
+    choices_of    the choices of some systems with some P
 
 The order is by n + m + p, then k, then n, m, p, then the largest numerator or denominator of an entry, then by the entries of A, F, C, G
 and P, by rows. P is n_z x k, with the n_z of the system. Another order or sign of the states or outputs moves the reduced basis of the
@@ -9,7 +10,7 @@ fault space, by which P is written; of the faults it does not, and neither does 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import product
 from math import lcm
@@ -46,6 +47,11 @@ class ChoiceBox(Box):
         """What they are called."""
         return "choices"
 
+    @property
+    def one(self) -> str:
+        """What one of them is called."""
+        return "choice"
+
     def __str__(self) -> str:
         return f"{super().__str__()}, {self.k[0]} <= k <= {self.k[1]}"
 
@@ -80,7 +86,7 @@ class ChoiceBox(Box):
                 spaces = [fault_space(kernel_representation(first.system(i))) for i in range(len(first))]
                 for one in {space.dimension for space in spaces} - set(tables):
                     tables[one] = _tables(self, entries, one, k, columns)
-                yield from _kept(_portions(first, spaces, tables, k), weights, entries, level)
+                yield from _kept(_portions(first, spaces, tables), weights, entries, level)
 
 
 def _kept(portions: Iterator[tuple[Choices, Integers]], weights: Integers, entries: list[Number], level: int) -> Iterator[Stretch]:
@@ -102,9 +108,7 @@ def _tables(box: ChoiceBox, entries: list[Number], n_z: int, k: int, columns: li
     return Scalars.of(entries, box.number_field).matrices(places_of(found, base), n_z, k), len(columns) // fixed
 
 
-def _portions(
-    first: Batch, spaces: list[FaultSpace], tables: dict[int, tuple[Integers, Integers]], k: int
-) -> Iterator[tuple[Choices, Integers]]:
+def _portions(first: Batch, spaces: list[FaultSpace], tables: dict[int, tuple[Integers, Integers]]) -> Iterator[tuple[Choices, Integers]]:
     """Yield the choices of neighbouring systems, with the numbers of those that each P stands for."""
     portion: list[int] = []
     held = 0
@@ -112,13 +116,14 @@ def _portions(
         portion.append(i)
         held += len(tables[space.dimension][1])
         if held >= AT_ONCE or i + 1 == len(spaces):
-            yield _choices(first, spaces, tables, portion, k)
+            yield choices_of(first, spaces, tables, portion)
             portion, held = [], 0
 
 
-def _choices(
-    first: Batch, spaces: list[FaultSpace], tables: dict[int, tuple[Integers, Integers]], portion: list[int], k: int
+def choices_of(
+    first: Batch, spaces: list[FaultSpace], tables: dict[int, tuple[Integers, Integers]], portion: Iterable[int]
 ) -> tuple[Choices, Integers]:
+    """Return the choices of these systems of `first`, with every P of the table for their n_z, and the numbers beside those P."""
     n, width = first.A.shape[1], first.A.shape[1] + first.C.shape[1]
     firsts, P, scales, F, G, times = [], [], [], [], [], []
     for i in portion:

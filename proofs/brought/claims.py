@@ -4,6 +4,7 @@ Claim          a claim that has been read
 Hypothesis     one of its hypotheses, with the label that it is shown by
 Answered       the verdicts: REFUTED, NOT REFUTED, VACUOUS, PROVED
 make_claim     a Claim from the keys of a file, each checked; KEYS are these
+about_what     what a claim is about, checked
 """
 
 from __future__ import annotations
@@ -99,7 +100,7 @@ def make_claim(id: str, given: Mapping[str, Any]) -> Claim:
             raise InvalidInput(f"{key}: got an unknown key; {nearest(str(key), KEYS)}")
     if "conclusion" not in given:
         raise InvalidInput("conclusion: got none, expected an expression")
-    about = _about(given.get("about", SYSTEM))
+    about = about_what(given.get("about", SYSTEM))
     hypotheses = tuple(_hypotheses(given.get("hypotheses", []), VOCABULARIES[about]))
     conclusion = expression(given["conclusion"], "conclusion", vocabulary=VOCABULARIES[about])
     fields = _fields(given.get("fields", ["Q"]))
@@ -149,7 +150,8 @@ def make_box(given: Mapping[str, Any], field: Field = QQ, about: str = SYSTEM) -
     return box
 
 
-def _about(about: object) -> str:
+def about_what(about: object) -> str:
+    """Return what a claim is about. Raises InvalidInput, which names the nearest, where it is nothing that a claim can be about."""
     if isinstance(about, str) and about in USUAL:
         return about
     known = tuple(USUAL)

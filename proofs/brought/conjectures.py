@@ -15,6 +15,8 @@ from typing import Any
 
 from ...base.sheets import Shown, counted
 from ...exact.system.systems import ResidualSystem
+from ..language.vocabularies import SYSTEM
+from ..quantities.cases import Case
 from ..trust.structure_certificates import Certificate, sha256
 from .answers import Counterexample, Tried
 
@@ -32,7 +34,7 @@ class Sharper:
         found = self.counterexample
         if found is None:
             return f"{self.text}: not refuted either"
-        return f"{self.text}: refuted by {found.system}" + ("" if found.smallest else " (outside the box)")
+        return f"{self.text}: refuted by {found.case}" + ("" if found.smallest else " (outside the box)")
 
     def to_json(self) -> dict[str, Any]:
         """The result is an entry of "sharper" in the JSON answer."""
@@ -46,17 +48,26 @@ class Sharper:
 
 @dataclass(frozen=True)
 class Bound:
-    """`text` is an expression of the language. `systems` of the box attain it, of which `first` comes first; where none does, which only
-    the claim's own bound allows, `first` lies outside the box. `known` names like statements.
+    """`text` is an expression of the language. `systems` cases of the box attain it, of which `case` comes first; where none does, which
+    only the claim's own bound allows, `case` lies outside the box. `known` names like statements, `nouns` are what one case is called, and
+    several.
 
-    The first of `sharper` has the next constant, and `first` refutes it; the others have one coefficient that is one less, or more.
+    The first of `sharper` has the next constant, and `case` refutes it; the others have one coefficient that is one less, or more.
     """
 
     text: str
-    first: ResidualSystem
+    case: Case
     systems: int
     sharper: tuple[Sharper, ...]
     known: tuple[str, ...]
+    nouns: tuple[str, str] = ("system", "systems")
+
+    @property
+    def first(self) -> ResidualSystem:
+        """This is `case`, where the bound is about systems. Raises TypeError where it is about something else."""
+        if not isinstance(self.case, ResidualSystem):
+            raise TypeError(f"got a bound that is attained by a {self.nouns[0]}, expected one about systems; .case is {self.case}")
+        return self.case
 
     @property
     def certificates(self) -> tuple[Certificate, ...]:
@@ -66,8 +77,8 @@ class Bound:
     def sheet(self, name: str) -> Iterator[tuple[str, str]]:
         """These pairs say it, below its `name`."""
         yield name, self.text
-        inside = f"by {counted(self.systems, 'system')} of the box, first by {self.first}"
-        yield "  attained", inside if self.systems else f"by no system of the box, but outside it by {self.first}"
+        inside = f"by {counted(self.systems, *self.nouns)} of the box, first by {self.case}"
+        yield "  attained", inside if self.systems else f"by no {self.nouns[0]} of the box, but outside it by {self.case}"
         for k, one in enumerate(self.sharper):
             yield "" if k else "  sharper", one.words
         for k, said in enumerate(self.known):
@@ -77,7 +88,7 @@ class Bound:
         """The result is an entry of "above" or "below" in the JSON answer."""
         return {
             "bound": self.text,
-            "attained": {"system": self.first.to_json(), "systems": self.systems},
+            "attained": {**_parts(self.case), "systems": self.systems},
             "sharper": [one.to_json() for one in self.sharper],
             "known": list(self.known),
         }
@@ -85,7 +96,7 @@ class Bound:
 
 @dataclass(frozen=True)
 class Evidence(Tried):
-    """Direct sums of two systems of the box and drawn systems were looked at, too; `rows` counts the different values that were met."""
+    """Direct sums of two cases of the box and drawn cases were looked at, too; `rows` counts the different values that were met."""
 
     sums: int
     sums_met: int
@@ -96,8 +107,8 @@ class Evidence(Tried):
     @property
     def words(self) -> str:
         """This says it in a sentence."""
-        sums = f"{self.sums} direct sums of systems of the box, {self.sums_met} meet them"
-        drawn = f"{self.drawn} drawn systems with up to 6 states, {self.drawn_met} meet them"
+        sums = f"{self.sums} direct sums of {self.of} of the box, {self.sums_met} meet them"
+        drawn = f"{self.drawn} drawn {self.of} with up to 6 states, {self.drawn_met} meet them"
         return f"{super().words}; {sums}; {drawn}; together {counted(self.rows, 'set')} of values"
 
     def to_json(self) -> dict[str, Any]:
@@ -110,10 +121,10 @@ class Conjectures(Shown):
     """Bounds above and below on a quantity by others, which nothing that was tried refutes and some system attains: no theorems.
 
     `above` and `below` list them, each with `text`, a bound in the language, `first`, the first system of the box that attains it,
-    `systems`, how many of the box do, `sharper`, the next sharper bounds with the smallest system that refutes each, and `known`, the like
-    statements of the field and of the ledger; none is implied by the others. `equal` are sums that the target equals wherever it was
-    looked at. `by` are the quantities of the bounds; `left_out` those that are infinite on a system, which is named. `tried` counts what
-    was gone through. Source: [F75], [VD79] for the ranks that the quantities are found by. Raises nothing by itself.
+    or `case`, the first pair, choice or record, `systems`, how many of the box do, `sharper`, the next sharper bounds with the smallest
+    case that refutes each, and `known`, the like statements of the field and of the ledger; none is implied by the others. `equal` are sums
+    that the target equals wherever it was looked at. `by` are the quantities of the bounds; `left_out` those that are infinite on a case,
+    which is named. `about` is what claims say they are about; `tried` counts what was gone through. Source: [F75], [VD79] for the ranks that the quantities are found by. Raises nothing by itself.
 
     >>> import faultspace as fs
     >>> found = fs.conjecture("lag", by=["n", "zeta"], box={"total": 3})
@@ -122,10 +133,11 @@ class Conjectures(Shown):
     """
 
     target: str
+    about: str
     field: str
     hypotheses: tuple[str, ...]
     by: tuple[str, ...]
-    left_out: Mapping[str, ResidualSystem]
+    left_out: Mapping[str, Case]
     above: tuple[Bound, ...]
     below: tuple[Bound, ...]
     equal: tuple[str, ...]
@@ -138,7 +150,7 @@ class Conjectures(Shown):
         """How many bounds there are, and on what."""
         over = "" if self.field == "Q" else f" over {self.field}"
         if not self.tried.rows:
-            return f"{self.target}{over}: no system that was tried meets the hypotheses"
+            return f"{self.target}{over}: none of the {self.tried.of} that were tried meets the hypotheses"
         bounds = f"{counted(len(self.above), 'bound')} above and {len(self.below)} below"
         return f"{self.target}{over}: {bounds} that nothing that was tried refutes"
 
@@ -160,8 +172,8 @@ class Conjectures(Shown):
         yield "bounds above that were sought", self.grammar["above"]
         yield "bounds below that were sought", self.grammar["below"]
         yield "by", ", ".join(self.by)
-        for name, system in self.left_out.items():
-            yield f"left out: {name}", f"inf on {system}"
+        for name, case in self.left_out.items():
+            yield f"left out: {name}", f"inf on {case}"
         yield "tried", self.tried.words
         yield "seconds", f"{self.seconds:.1f}"
 
@@ -169,10 +181,11 @@ class Conjectures(Shown):
         """The result is what `faultspace conjecture --json` prints."""
         return {
             "target": self.target,
+            "about": self.about,
             "field": self.field,
             "hypotheses": list(self.hypotheses),
             "by": list(self.by),
-            "left_out": [{"name": name, "system": system.to_json()} for name, system in self.left_out.items()],
+            "left_out": [{"name": name, **_parts(case)} for name, case in self.left_out.items()],
             "above": [one.to_json() for one in self.above],
             "below": [one.to_json() for one in self.below],
             "equal": list(self.equal),
@@ -185,19 +198,20 @@ class Conjectures(Shown):
 class Sharpened(Shown):
     """Bounds in the place of a claim's: `own` is the claim's with the least constant beside it that nothing that was tried refutes.
 
-    `words` are the bounds on the same quantity by what the claim's other side names, `others` those by all quantities, none implied by the
+    `words` are the bounds on the same quantity by what the claim's other side names, `others` those by all quantities (`default_columns`), none implied by the
     others of its list. `counterexample` refutes the claim itself, and is None where nothing does. `own` is None where no constant will do.
     """
 
     id: str
+    about: str
     field: str
     conclusion: str
     hypotheses: tuple[str, ...]
-    counterexample: ResidualSystem | None
+    counterexample: Case | None
     own: Bound | None
     words: tuple[Bound, ...]
     others: tuple[Bound, ...]
-    left_out: Mapping[str, ResidualSystem]
+    left_out: Mapping[str, Case]
     grammar: str
     tried: Evidence
     seconds: float
@@ -207,7 +221,7 @@ class Sharpened(Shown):
         """The bound in the place of the claim's."""
         over = "" if self.field == "Q" else f" over {self.field}"
         if not self.tried.rows:
-            return f"{self.id}{over}: no system that was tried meets the hypotheses"
+            return f"{self.id}{over}: none of the {self.tried.of} that were tried meets the hypotheses"
         if self.own is None:
             return f"{self.id}{over}: no constant beside it makes the claim a bound that is attained"
         return f"{self.id}{over}: {self.own.text} is not refuted, and attained"
@@ -230,10 +244,10 @@ class Sharpened(Shown):
         for k, bound in enumerate(self.words):
             yield from bound.sheet(f"in its words {k + 1}")
         for k, bound in enumerate(self.others):
-            yield from bound.sheet(f"by all quantities {k + 1}")
+            yield from bound.sheet(f"by {'all' if self.about == SYSTEM else 'the usual'} quantities {k + 1}")
         yield "bounds that were sought", self.grammar
-        for name, system in self.left_out.items():
-            yield f"left out: {name}", f"inf on {system}"
+        for name, case in self.left_out.items():
+            yield f"left out: {name}", f"inf on {case}"
         yield "tried", self.tried.words
         yield "seconds", f"{self.seconds:.1f}"
 
@@ -241,6 +255,7 @@ class Sharpened(Shown):
         """The result is an entry of "sharpened" in the JSON answer."""
         return {
             "id": self.id,
+            "about": self.about,
             "field": self.field,
             "conclusion": self.conclusion,
             "hypotheses": list(self.hypotheses),
@@ -248,7 +263,12 @@ class Sharpened(Shown):
             "own": None if self.own is None else self.own.to_json(),
             "words": [one.to_json() for one in self.words],
             "others": [one.to_json() for one in self.others],
-            "left_out": [{"name": name, "system": system.to_json()} for name, system in self.left_out.items()],
+            "left_out": [{"name": name, **_parts(case)} for name, case in self.left_out.items()],
             "grammar": self.grammar,
             "tried": self.tried.to_json(),
         }
+
+
+def _parts(case: Case) -> dict[str, Any]:
+    """Return a system under that name, or what else the case is made of."""
+    return {"system": case.to_json()} if isinstance(case, ResidualSystem) else case.to_json()

@@ -2,7 +2,6 @@
 
 conjecture        bounds on a quantity by others: what `fs.conjecture` is
 sharpen           bounds in the place of a claim's, over each of its fields
-default_columns   the quantities that bounds are sought by where none are named
 """
 
 from __future__ import annotations
@@ -19,25 +18,25 @@ from numpy.typing import NDArray
 from ...base.errors import InvalidInput, shorten
 from ...base.progress import Progress, silent
 from ...base.threads import one_thread
-from ...exact.system.systems import ResidualSystem
 from ..language.evaluating import Asked
 from ..language.grammar import OF_A_MATRIX
 from ..language.linear import linear, words
 from ..language.nodes import Node
-from ..language.vocabularies import SYSTEM
+from ..language.vocabularies import SYSTEM, VOCABULARIES
+from ..quantities.cases import Case
 from ..quantities.elimination import Integers
-from ..quantities.registry import Kind, quantities
+from ..quantities.registry import Kind
 from .bounds import ABOVE, BELOW, Fit, Fitted, Form, Grammar, fit
 from .boxes import Box
-from .claims import Claim, expression, make_claim
+from .claims import Claim, about_what, expression, make_claim
 from .conjectures import Bound, Conjectures, Evidence, Sharpened, Sharper
 from .deciding import certified
 from .known_bounds import known_as
 from .tables import Row, Table, tabulate
+from .usual_columns import default_columns
 
 MOST = 10**9
 MOST_COLUMNS, MOST_TERMS, LARGEST_COEFFICIENT, LARGEST_CONSTANT, MOST_EQUAL = 40, 3, 3, 9, 5
-RANKS = ("rank(A)", "rank(F)", "rank(C)", "rank(G)")
 SIGNS = {ABOVE: "<=", BELOW: ">="}
 
 
@@ -47,7 +46,7 @@ class _Columns:
 
     names: tuple[str, ...]
     values: Integers
-    left_out: Mapping[str, ResidualSystem]
+    left_out: Mapping[str, Case]
 
 
 @one_thread()
@@ -58,7 +57,8 @@ def conjecture(
     by: Sequence[str] | None = None,
     field: str = "Q",
     box: Mapping[str, Any] | None = None,
-    terms: int = Grammar.terms,
+    about: str = SYSTEM,
+    terms: int | None = None,
     largest: int = Grammar.largest,
     constant: int = Grammar.constant,
     most: int = MOST,
@@ -70,14 +70,16 @@ def conjecture(
     `target` is an expression of the language of `docs/your-claims.md`, `hypotheses` and `by` are lists of such; without `by` all integer
     quantities and the ranks of A (n x n), F (n x m), C (p x n), G (p x m) are used. A bound is a sum of at most `terms` of them with
     coefficients from -`largest` to `largest`, one of which may be the larger (below: the smaller) of two, and a constant from -`constant`
-    to `constant`. What is answered is refuted by no system of the box, no known one, no direct sum of two that stand for others and none
-    of those that are drawn, and attained by a system of the box; none is implied by the others, and wherever a bound of this form is
-    attained in the box, one that is answered is, forms that equal the target everywhere, which are told apart, left aside. The next
-    sharper ones come with the smallest system that refutes them, and its certificates. None of this is a proof. `field`, `box`, `most`,
-    `jobs` and `on_progress` are those of `claim`. Source: [F75], [VD79] for the ranks that the quantities are found by.
+    to `constant`; `terms` is 3 by default, and 2 where the bounds are about more than one system. What is answered is refuted by no system
+    of the box, no known one, no direct sum of two that stand for others and none of those that are drawn, and attained by a system of the
+    box; none is implied by the others, and wherever a bound of this form is attained in the box, one that is answered is, forms that equal
+    the target everywhere, which are told apart, left aside. The next sharper ones come with the smallest system that refutes them, and its
+    certificates. None of this is a proof. With `about` "pair", "pair with the same (A, C)", "choice" or "record" the same is done with
+    these, as `claim` does it, in the place of systems. `field`, `box`, `most`, `jobs` and `on_progress` are those of `claim`. Source:
+    [F75], [VD79] for the ranks that the quantities are found by.
 
     Raises InvalidInput for what is no expression, for an empty box, where the target is infinite or an expression has no value on a
-    system, which is named, and for numbers out of range.
+    system, or a case of another kind, which is named, and for numbers out of range.
 
     >>> import faultspace as fs
     >>> found = fs.conjecture("delay_known", hypotheses=["left_invertible"], by=["n", "rank(G)"], box={"total": 4})
@@ -85,16 +87,17 @@ def conjecture(
     (['delay_known <= n'], 'delay_known <= n - 1')
     """
     started = time.perf_counter()
-    node = _integer(target, "target")
-    names = default_columns(node) if by is None else _listed(by)
+    about = about_what(about)
+    node = _integer(target, "target", about)
+    names = default_columns(node, about) if by is None else _listed(by)
     grammar = Grammar(
-        _number(terms, "terms", 1, MOST_TERMS),
+        _number(_terms(about) if terms is None else terms, "terms", 1, MOST_TERMS),
         _number(largest, "largest", 1, LARGEST_COEFFICIENT),
         _number(constant, "constant", 0, LARGEST_CONSTANT),
     )
-    given: dict[str, Any] = {"conclusion": f"({node.text}) == 0", "hypotheses": list(hypotheses), "fields": [field]}
+    given: dict[str, Any] = {"about": about, "conclusion": f"({node.text}) == 0", "hypotheses": list(hypotheses), "fields": [field]}
     claim = make_claim("conjecture", given | ({} if box is None else {"box": box}))
-    columns = list({one.text: one for one in (_integer(text, f"by[{k}]") for k, text in enumerate(names))}.values())
+    columns = list({one.text: one for one in (_integer(text, f"by[{k}]", about) for k, text in enumerate(names))}.values())
     table = _table(claim, field, [node, *columns], most, jobs, on_progress or silent)
     _must_be_finite(table, node, "target")
     finite = _columns(table, [_named(one) for one in columns], 1)
@@ -106,6 +109,7 @@ def conjecture(
         equal += [f"{node.text} == {one.form.words(finite.names, one.constant)}" for one in found.equal if one.cost == least]
     return Conjectures(
         target=node.text,
+        about=about,
         field=field,
         hypotheses=tuple(one.label for one in claim.hypotheses),
         by=finite.names,
@@ -121,27 +125,18 @@ def conjecture(
 
 def sharpen(claim: Claim, *, most: int = MOST, jobs: int = 1, progress: Progress = silent) -> list[Sharpened]:
     """Return the bounds in the place of the claim's over each of its fields. Raises InvalidInput where it is no bound on an integer."""
-    if claim.about != SYSTEM:
-        raise InvalidInput(f"claim.{claim.id}.about: got {claim.about}, expected system: bounds are sought for claims about systems alone")
     return [_sharpened(claim, field, most, jobs, progress) for field in claim.boxes]
-
-
-def default_columns(target: Node) -> list[str]:
-    """Return all integer quantities and the ranks of A, F, C, G but for what the target is a sum of; sizes stay."""
-    inside = set(linear(target).multiples)
-    listed = [one.name for one in quantities().values() if one.kind == Kind.INTEGER and not one.windowed]
-    return [name for name in (*sorted(listed), *RANKS) if name not in inside or (name in ("n", "m", "p") and name != target.text)]
 
 
 def _sharpened(claim: Claim, field: str, most: int, jobs: int, progress: Progress) -> Sharpened:
     started = time.perf_counter()
     target, side, other, strict = _bound_of(claim)
     own = [name for name in linear(other).multiples if name != target.text]
-    names = list(dict.fromkeys([*own, *default_columns(target)]))
-    columns = [_integer(one, f"claim.{claim.id}.conclusion") for one in names]
+    names = list(dict.fromkeys([*own, *default_columns(target, claim.about)]))
+    columns = [_integer(one, f"claim.{claim.id}.conclusion", claim.about) for one in names]
     table = _table(claim, field, [target, other, *columns], most, jobs, progress)
     _must_be_finite(table, target, f"claim.{claim.id}.conclusion")
-    finite, grammar = _columns(table, [_named(one) for one in columns], 2), Grammar()
+    finite, grammar = _columns(table, [_named(one) for one in columns], 2), Grammar(_terms(claim.about))
     bound, refuting = _own(claim, table, target, other, side, strict) if table.rows else (None, None)
     kept = [k for k, name in enumerate(finite.names) if name in {_named(one) for one in columns[: len(own)]}]
     narrow = _Columns(tuple(finite.names[k] for k in kept), finite.values[:, kept], {})
@@ -150,6 +145,7 @@ def _sharpened(claim: Claim, field: str, most: int, jobs: int, progress: Progres
     told = {one.text for one in in_words}
     return Sharpened(
         id=claim.id,
+        about=claim.about,
         field=field,
         conclusion=claim.conclusion.text,
         hypotheses=tuple(one.label for one in claim.hypotheses),
@@ -168,9 +164,9 @@ def _bound_of(claim: Claim) -> tuple[Node, str, Node, int]:
     """Return target (the single quantity, if there is one), side and bound of a conclusion that is a bound, and 1 where it is strict."""
     node = claim.conclusion
     if node.op != "compare" or len(node.args) != 2 or node.value[0] not in ("<=", "<", ">=", ">") or node.args[0].kind != Kind.INTEGER:
-        raise InvalidInput(
-            f"claim.{claim.id}.conclusion: got {shorten(node.text)}, expected a bound to sharpen, two integers with <=, <, >= or > between"
-        )
+        expected = "a bound to sharpen, two integers with <=, <, >= or > between"
+        expected += "; what is before the bound in implies(...) can stand among the hypotheses" if node.op == "implies" else ""
+        raise InvalidInput(f"claim.{claim.id}.conclusion: got {shorten(node.text)}, expected {expected}")
     left, right = node.args
     above, strict = node.value[0] in ("<=", "<"), len(node.value[0]) == 1
     if left.op not in ("quantity", "windowed") and right.op in ("quantity", "windowed"):
@@ -178,11 +174,11 @@ def _bound_of(claim: Claim) -> tuple[Node, str, Node, int]:
     return left, ABOVE if above else BELOW, right, int(strict)
 
 
-def _own(claim: Claim, table: Table, target: Node, other: Node, side: str, strict: int) -> tuple[Bound | None, ResidualSystem | None]:
+def _own(claim: Claim, table: Table, target: Node, other: Node, side: str, strict: int) -> tuple[Bound | None, Case | None]:
     """Return the claim's bound with the least constant, if some constant will do, and the first system that refutes the claim."""
     sign = 1 if side == ABOVE else -1
     gaps = [sign * (row.values[0] - row.values[1]) for row in table.rows]
-    refuting = next((row.system for row, gap in zip(table.rows, gaps, strict=True) if gap > -strict), None)
+    refuting = next((row.case for row, gap in zip(table.rows, gaps, strict=True) if gap > -strict), None)
     largest = max(gaps)
     if isinf(largest):
         return None, refuting
@@ -193,7 +189,7 @@ def _own(claim: Claim, table: Table, target: Node, other: Node, side: str, stric
     told = before + words(whole.multiples.items(), constant)
     sharper = _refuted(claim, before + words(whole.multiples.items(), constant - sign), table.rows, attained)
     first = next(row for row, here in zip(table.rows, attained, strict=True) if here)
-    return Bound(told, first.system, _systems(table, attained), (sharper,), _known(claim, told)), refuting
+    return Bound(told, first.case, _systems(table, attained), (sharper,), _known(claim, told), _nouns(table)), refuting
 
 
 def _bounds(claim: Claim, table: Table, target: Node, columns: _Columns, kept: Sequence[Fitted], side: str) -> Iterator[Bound]:
@@ -214,7 +210,7 @@ def _bounds(claim: Claim, table: Table, target: Node, columns: _Columns, kept: S
             gaps: Integers = sign * (targets - form.on(columns.values) - constant)
             listed.append(_refuted(claim, before + form.words(columns.names, constant), table.rows, gaps > 0))
         first = next(row for row, here in zip(table.rows, one.attained, strict=True) if here)
-        yield Bound(told, first.system, _systems(table, one.attained), tuple(listed), _known(claim, told))
+        yield Bound(told, first.case, _systems(table, one.attained), tuple(listed), _known(claim, told), _nouns(table))
 
 
 def _refuted(claim: Claim, text: str, rows: Sequence[Row], failing: NDArray[np.bool_]) -> Sharper:
@@ -222,12 +218,12 @@ def _refuted(claim: Claim, text: str, rows: Sequence[Row], failing: NDArray[np.b
     first = next((row for row, here in zip(rows, failing, strict=True) if here), None)
     if first is None:
         return Sharper(text, None)
-    asked = replace(claim, conclusion=expression(text, "bound"))
-    return Sharper(text, certified(asked, first.system, smallest=first.in_box))
+    asked = replace(claim, conclusion=_word(text, claim))
+    return Sharper(text, certified(asked, first.case, smallest=first.in_box))
 
 
 def _known(claim: Claim, text: str) -> tuple[str, ...]:
-    return known_as(expression(text, "bound"), [one.that.text for one in claim.hypotheses])
+    return known_as(_word(text, claim), [one.that.text for one in claim.hypotheses], claim.about)
 
 
 def _table(claim: Claim, field: str, nodes: Sequence[Node], most: int, jobs: int, progress: Progress) -> Table:
@@ -241,7 +237,7 @@ def _must_be_finite(table: Table, target: Node, where: str) -> None:
     found = next((row for row in table.rows if isinf(row.values[0])), None)
     if found is not None:
         raise InvalidInput(
-            f"{where}: got {shorten(target.text)}, which is inf on {found.system}, expected one that is finite under the hypotheses; "
+            f"{where}: got {shorten(target.text)}, which is inf on {found.case}, expected one that is finite under the hypotheses; "
             f'the hypothesis "{target.text} < inf" makes it so'
         )
 
@@ -254,13 +250,22 @@ def _columns(table: Table, names: Sequence[str], begin: int) -> _Columns:
         if infinite is None:
             kept.append(k)
         else:
-            left_out[name] = infinite.system
+            left_out[name] = infinite.case
     values = np.array([[row.values[begin + k] for k in kept] for row in table.rows], dtype=np.int64).reshape(len(table.rows), len(kept))
     return _Columns(tuple(names[k] for k in kept), values, left_out)
 
 
 def _fit(table: Table, columns: _Columns, grammar: Grammar, side: str) -> Fit:
     return fit(_targets(table), columns.values, _in_box(table), grammar, side)
+
+
+def _terms(about: str) -> int:
+    """Return how many quantities a bound has by default: fewer where there are those of two systems, which are twice as many."""
+    return Grammar.terms if about == SYSTEM else Grammar.terms - 1
+
+
+def _nouns(table: Table) -> tuple[str, str]:
+    return table.box.one, table.box.noun
 
 
 def _targets(table: Table) -> Integers:
@@ -277,13 +282,17 @@ def _systems(table: Table, attained: NDArray[np.bool_]) -> int:
 
 def _evidence(table: Table) -> Evidence:
     counts = {name: getattr(table, name) for name in Evidence.__dataclass_fields__ if name not in ("box", "rows", "of")}
-    return Evidence(box=str(table.box), rows=len(table.rows), **counts)
+    return Evidence(box=str(table.box), rows=len(table.rows), of=table.box.noun, **counts)
 
 
-def _integer(text: object, where: str) -> Node:
+def _word(text: str, claim: Claim) -> Node:
+    return expression(text, "bound", vocabulary=VOCABULARIES[claim.about])
+
+
+def _integer(text: object, where: str, about: str) -> Node:
     if not isinstance(text, str):
         raise InvalidInput(f"{where}: got {shorten(text)}, expected an expression as a string")
-    return expression(text, where, Kind.INTEGER)
+    return expression(text, where, Kind.INTEGER, VOCABULARIES[about])
 
 
 def _listed(by: object) -> list[str]:

@@ -15,6 +15,7 @@ from importlib import resources
 
 from ..language.linear import Linear, linear
 from ..language.nodes import Node
+from ..language.vocabularies import SYSTEM
 from .claim_files import read_claims
 from .claims import Answered
 
@@ -28,15 +29,17 @@ MEANINGS = {
 @dataclass(frozen=True)
 class _Statement:
     name: str
+    about: str
     hypotheses: frozenset[str]
     inequalities: tuple[Linear, ...]  # each sum is at most 0
 
 
-def known_as(bound: Node, hypotheses: Sequence[str]) -> tuple[str, ...]:
-    """Return the names of the statements, as "literature: inverse-bound (Willsky ...)"."""
+def known_as(bound: Node, hypotheses: Sequence[str], about: str = SYSTEM) -> tuple[str, ...]:
+    """Return the names of the statements about as much, as "literature: inverse-bound (Willsky ...)"."""
     wanted = at_most_zero(bound)
     given = {_spaced(one) for one in hypotheses}
-    return tuple(one.name for one in _statements() if one.hypotheses <= given and any(same in one.inequalities for same in wanted))
+    listed = [one for one in _statements() if one.about == about and one.hypotheses <= given]
+    return tuple(one.name for one in listed if any(same in one.inequalities for same in wanted))
 
 
 def at_most_zero(node: Node) -> tuple[Linear, ...]:
@@ -64,7 +67,7 @@ def _statements() -> tuple[_Statement, ...]:
                 continue
             name = f"{file}: {one.id}" + (f" ({one.source})" if one.source else "")
             hypotheses = frozenset(_spaced(given.that.text) for given in one.hypotheses)
-            found.append(_Statement(name, hypotheses, at_most_zero(one.conclusion)))
+            found.append(_Statement(name, one.about, hypotheses, at_most_zero(one.conclusion)))
     return tuple(found)
 
 

@@ -42,6 +42,11 @@ class PairBox(Box):
         """What they are called."""
         return "pairs of systems"
 
+    @property
+    def one(self) -> str:
+        """What one of them is called."""
+        return "pair of systems"
+
     def __str__(self) -> str:
         return f"{super().__str__()} in both{', the same A and C' if self.one_A_and_C else ''}"
 

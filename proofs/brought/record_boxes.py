@@ -45,6 +45,11 @@ class RecordBox(Box):
         """What they are called."""
         return "records"
 
+    @property
+    def one(self) -> str:
+        """What one of them is called."""
+        return "record"
+
     def __str__(self) -> str:
         return f"{super().__str__()}, {self.nu[0]} <= nu <= {self.nu[1]}, {self.N[0]} <= N <= {self.N[1]}"
 

@@ -23,9 +23,11 @@ from faultspace.proofs.brought.bounds import ABOVE, BELOW, Fit, Fitted, Form, Gr
 from faultspace.proofs.brought.boxes import Box
 from faultspace.proofs.brought.claims import Answered, make_box, make_claim
 from faultspace.proofs.brought.conjectures import Bound, Conjectures, Sharpened
-from faultspace.proofs.brought.conjecturing import default_columns, sharpen
+from faultspace.proofs.brought.conjecturing import sharpen
+from faultspace.proofs.brought.direct_sums import direct_sums
 from faultspace.proofs.brought.known_bounds import at_most_zero, known_as
 from faultspace.proofs.brought.known_systems import known_systems
+from faultspace.proofs.brought.usual_columns import default_columns
 from faultspace.proofs.language.evaluating import Exactly, evaluate
 from faultspace.proofs.language.grammar import read
 from faultspace.proofs.language.linear import Linear, linear, words
@@ -96,7 +98,7 @@ def test_the_table_is_what_one_system_at_a_time_says(bounds: dict[str, Any], pri
     box = make_box(bounds, Rationals() if prime is None else PrimeField(prime))
     nodes = [read(one, Kind.INTEGER) for one in COLUMNS]
     table = tables.tabulate(box, [read(hypothesis)], nodes, most=10**9, jobs=1, progress=silent)
-    found = {row.values: (row.systems, row.system) for row in table.rows if row.in_box}
+    found = {row.values: (row.systems, row.case) for row in table.rows if row.in_box}
     assert found == one_at_a_time(box, hypothesis, COLUMNS)
     assert table.met == sum(count for count, _ in found.values()) > 0 and table.exhausted
     assert [row.place for row in table.rows] == sorted(row.place for row in table.rows)
@@ -110,19 +112,19 @@ def test_what_is_outside_the_box_is_as_exact_functions_say() -> None:
     outside = [row for row in table.rows if not row.in_box]
     assert len(outside) > 20 and table.sums_met > 3 and table.corpus_met > 50
     for row in outside[:: 5 * every()]:
-        exactly = Exactly({"": Subject(row.system)})
+        exactly = Exactly({"": Subject(row.case)})
         assert tuple(evaluate(node, exactly) for node in nodes) == row.values and evaluate(read("left_invertible"), exactly)
     listed = {one.subject.system for one in known_systems(Rationals())}
     assert sum(row.others for row in table.rows) == table.sums_met + table.drawn_met + table.corpus_met + table.adversary_met
     assert table.drawn_met >= 100
-    assert any(row.system not in listed for row in outside)
+    assert any(row.case not in listed for row in outside)
 
 
 def test_a_direct_sum_is_one() -> None:
     one = ResidualSystem.of([[1]], [[2]], [[3]], [[4]])
     other = ResidualSystem.of([[5, 0], [6, 7]], [[8], [9]], [[1, 2]], [[3]])
-    batch = tables._direct_sums([(one, other)], Box())
-    assert batch.system(0) == ResidualSystem.of(
+    batch = direct_sums([(one, other)], Box())
+    assert batch.case(0) == ResidualSystem.of(
         [[1, 0, 0], [0, 5, 0], [0, 6, 7]], [[2, 0], [0, 8], [0, 9]], [[3, 0, 0], [0, 1, 2]], [[4, 0], [0, 3]]
     )
 
@@ -378,8 +380,8 @@ def test_a_broken_quantity_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_nothing_meets_the_hypotheses() -> None:
     found = fs.conjecture("lag", hypotheses=["n > 99"], box=SMALL)
-    assert (found.above, found.below, found.tried.rows) == ((), (), 0) and "no system that was tried meets" in found.title
-    assert "no system that was tried meets" in sharpened("lag <= n", "n > 99", box=SMALL).title
+    assert (found.above, found.below, found.tried.rows) == ((), (), 0) and "none of the systems that were tried meets" in found.title
+    assert "none of the systems that were tried meets" in sharpened("lag <= n", "n > 99", box=SMALL).title
 
 
 def test_hypotheses_may_be_predicates_of_python_and_the_field_finite() -> None:

@@ -24,7 +24,6 @@ from faultspace.proofs.brought.case_files import fitting, read_case
 from faultspace.proofs.brought.claim_files import read_claims
 from faultspace.proofs.brought.claiming import decide_claims, explain
 from faultspace.proofs.brought.claims import Answered, make_claim
-from faultspace.proofs.brought.conjecturing import sharpen
 from faultspace.proofs.brought.known_cases import known_cases, smaller
 from faultspace.proofs.brought.pair_boxes import PairBox
 from faultspace.proofs.language.by_batches import Table, true_of
@@ -404,8 +403,6 @@ def test_words_of_other_claims_are_named() -> None:
         fs.claim("first.stable", about=PAIR, fields=["GF(2)"])
     with pytest.raises(InvalidInput, match="empty box"):
         fs.claim("equal", about=PAIR, box={"n": [2, 2], "total": 3})
-    with pytest.raises(InvalidInput, match="systems alone"):
-        sharpen(make_claim("x", {"about": PAIR, "conclusion": "first.lag <= first.n"}))
 
 
 def test_a_claim_about_pairs_without_a_value_names_the_pair() -> None:
