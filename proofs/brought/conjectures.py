@@ -124,7 +124,8 @@ class Conjectures(Shown):
     or `case`, the first pair, choice or record, `systems`, how many of the box do, `sharper`, the next sharper bounds with the smallest
     case that refutes each, and `known`, the like statements of the field and of the ledger; none is implied by the others. `equal` are sums
     that the target equals wherever it was looked at. `by` are the quantities of the bounds; `left_out` those that are infinite on a case,
-    which is named. `about` is what claims say they are about; `tried` counts what was gone through. Source: [F75], [VD79] for the ranks that the quantities are found by. Raises nothing by itself.
+    which is named. `about` is what claims say they are about; `tried` counts what was gone through. Source: [F75], [VD79] for the ranks
+    that the quantities are found by. Raises nothing by itself.
 
     >>> import faultspace as fs
     >>> found = fs.conjecture("lag", by=["n", "zeta"], box={"total": 3})
@@ -198,8 +199,9 @@ class Conjectures(Shown):
 class Sharpened(Shown):
     """Bounds in the place of a claim's: `own` is the claim's with the least constant beside it that nothing that was tried refutes.
 
-    `words` are the bounds on the same quantity by what the claim's other side names, `others` those by all quantities (`default_columns`), none implied by the
-    others of its list. `counterexample` refutes the claim itself, and is None where nothing does. `own` is None where no constant will do.
+    `words` are the bounds on the same quantity by what the claim's other side names, `others` those by all quantities, or the usual ones
+    of pairs, choices and records, none implied by the others of its list. `counterexample` refutes the claim itself, and is None where
+    nothing does. `own` is None where no constant will do.
     """
 
     id: str

@@ -4,8 +4,9 @@
 
 Systems have up to 6 states, 3 faults and 4 outputs, and entries -1, 0, 1 (over GF(2): 0, 1), many of them 0. The second system of a pair is
 the first with one entry changed, the first with other faults, or another one with as many outputs, and half of the pairs are turned round:
-those of the first two kinds may agree for a while, all the more since in half of the draws the first is a chain
-of states of which the last is seen. A choice has a P with such entries, and a record up to 16 samples of one or two inputs.
+those of the first two kinds may agree for a while, all the more since in half of the draws the first is a chain of states of which the last
+is seen. Half of the other ones make every output: they agree with the first as long as its lag. A choice has a P with such entries, and a
+record up to 16 samples of one or two inputs.
 """
 
 from __future__ import annotations
@@ -66,6 +67,7 @@ def _pairs(box: Box, rng: Generator, sizes: Sizes) -> Pairs:
         second = _of(first, first.A, other.F, first.C, other.G)
     else:
         second = _systems(box, rng, (int(rng.integers(1, 1 + LARGEST_STATES)), *sizes[1:]), AT_A_TIME)
+        second = _free(second) if rng.random() < 0.5 else second
     both = (second, first) if rng.random() < 0.5 else (first, second)
     each = np.arange(AT_A_TIME)
     return Pairs(*both, each, each, shared)
@@ -77,6 +79,12 @@ def _chained(batch: Batch) -> Batch:
     A[:, d:, : A.shape[2] - d] = np.eye(A.shape[1] - d, dtype=np.int64)
     C[:, :d, -d:] = np.eye(d, dtype=np.int64)
     return _of(batch, A, batch.F, C, batch.G)
+
+
+def _free(batch: Batch) -> Batch:
+    """Return the systems with a fault of its own for each output, so that every output is possible, and the fault moves no state."""
+    unit = np.broadcast_to(np.eye(batch.C.shape[1], dtype=np.int64), (len(batch), batch.C.shape[1], batch.C.shape[1]))
+    return _of(batch, batch.A, np.zeros((len(batch), batch.A.shape[1], unit.shape[2]), dtype=np.int64), batch.C, unit)
 
 
 def _changed(batch: Batch, rng: Generator, names: str) -> Batch:

@@ -234,12 +234,19 @@ def test_a_claim_is_sharpened(about: str, conclusion: str, hypotheses: list[str]
         assert claimed.counterexample is not None and claimed.counterexample.case == found.counterexample
 
 
-def test_what_is_a_bound_in_the_box_alone_falls() -> None:
-    """In this box lags are at most 1, so that twice the constant would do; pairs with more states refute it."""
-    box = ONE | {"entries": [0, 1]}
-    assert fs.claim("first_difference <= 2", about=PAIR, hypotheses=["not equal"], box=box).answers[0].verdict == "REFUTED"  # by registers
-    found = conjectured(PAIR, "first_difference", "not equal", by=["first.m"], box=box)
-    assert "first_difference <= 2" not in [one.text for one in found.above]
+def test_a_false_bound_that_was_answered_once_falls(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A chain of n states without a fault and a system that makes every output, of which lag and n_z are small, differ at n + 1 samples."""
+    chain = ResidualSystem.of([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0], [0], [0]], [[0, 0, 1]], [[0]])
+    free = ResidualSystem.of([[0]], [[0]], [[0]], [[1]])
+    knows = exactly(Pair(chain, free))
+    said = [
+        evaluate(read(text, Kind.INTEGER, VOCABULARIES[PAIR]), knows) for text in ("first_difference", "max(second.lag, second.n_z) + 1")
+    ]
+    assert said == [4, 3]
+    monkeypatch.setattr(tables, "MOST_MET", 1000)
+    monkeypatch.setattr(tables, "DRAWS", 40)
+    found = conjectured(PAIR, "first_difference", "not equal", by=["second.lag", "second.n_z"])
+    assert "first_difference <= max(second.lag, second.n_z) + 1" not in [one.text for one in found.above]
 
 
 @pytest.mark.parametrize(
