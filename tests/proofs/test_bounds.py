@@ -112,6 +112,7 @@ def test_what_is_outside_the_box_is_as_exact_functions_say() -> None:
     outside = [row for row in table.rows if not row.in_box]
     assert len(outside) > 20 and table.sums_met > 3 and table.corpus_met > 50
     for row in outside[:: 5 * every()]:
+        assert isinstance(row.case, ResidualSystem)
         exactly = Exactly({"": Subject(row.case)})
         assert tuple(evaluate(node, exactly) for node in nodes) == row.values and evaluate(read("left_invertible"), exactly)
     listed = {one.subject.system for one in known_systems(Rationals())}

@@ -168,8 +168,17 @@ def test_drawn_pairs_agree_for_a_while() -> None:
         batch = drawn(box, rng)
         found += [evaluate(difference, exactly(batch.case(k))) for k in range(0, len(batch), 9)]
     assert {1.0, 2.0, 3.0} <= set(found) and float("inf") in found
+    free = [
+        one for _ in range(30) if (one := drawn(box, rng)) and any(makes_every_output(one.case(0), name) for name in ("first", "second"))
+    ]
+    assert len(free) > 2
     shared = drawn(make_box(ONE, Rationals(), ONE_A_AND_C), rng).case(0)
     assert isinstance(shared, Pair) and (shared.first.A, shared.first.C) == (shared.second.A, shared.second.C)
+
+
+def makes_every_output(pair: Any, name: str) -> bool:
+    system: ResidualSystem = getattr(pair, name)
+    return system.n > 0 and system.F.is_zero() and Matrix.identity(system.field, system.p) == system.G
 
 
 # -- what is answered --------------------------------------------------------------------------------------------------
