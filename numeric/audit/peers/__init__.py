@@ -4,11 +4,12 @@
     PEERS     all of them
     peer      the one of that name
     FAULT_ID  the environment variable with the folder of a clone of ggleizer/fault_id
+    MATRIX_PENCILS  the one with a folder of the package MatrixPencils and those that it needs, where Julia does not find it by itself
 
-Nothing here imports a peer: a Python peer is imported by its adapter module, an Octave one by its script. An adapter has the functions that
-the package has, takes the defaults of the package where a user would, says why where it does not, and repairs nothing. A warning that
-names the trouble counts as a refusal, as it does in our own adapter. Errors that lie in scripts, outside every function, are in
-`by_hand.md`.
+Nothing here imports a peer: a Python peer is imported by its adapter module, one of Octave or Julia by its script. An adapter has the
+functions that the package has, takes the defaults of the package where a user would, says why where it does not, and repairs nothing. A
+warning that names the trouble counts as a refusal, as it does in our own adapter. Errors that lie in scripts, outside every function, are
+in `by_hand.md`.
 """
 
 from __future__ import annotations
@@ -26,6 +27,10 @@ from pathlib import Path
 from ....base.errors import InvalidData
 
 FAULT_ID = "FAULT_ID"
+MATRIX_PENCILS = "MATRIX_PENCILS"
+VARIABLES = (FAULT_ID, MATRIX_PENCILS)  # which a peer's program sees, beside what any program needs
+# Without optimization Julia is ready in half the time; the arithmetic of the peer is LAPACK's.
+JULIA = ("julia", "--startup-file=no", "--optimize=0")
 OCTAVE = ("octave-cli", "--no-gui", "--quiet", "--norc")
 HERE = Path(__file__).parent
 
@@ -63,6 +68,20 @@ def _octave(package: str | None = None) -> str | None:
     return run.stdout.strip() or None
 
 
+@cache
+def _matrix_pencils() -> str | None:
+    """Return the version of the package and that of Julia; None where either is missing. The package is not loaded, which takes long."""
+    if shutil.which(JULIA[0]) is None:
+        return None
+    asked = (
+        f'haskey(ENV, "{MATRIX_PENCILS}") && push!(LOAD_PATH, ENV["{MATRIX_PENCILS}"]); found = Base.find_package("MatrixPencils"); '
+        'text = found === nothing ? "" : read(joinpath(dirname(dirname(found)), "Project.toml"), String); '
+        'known = match(r"^version = .([0-9.]+)"m, text); known === nothing || print("MatrixPencils ", known[1], ", Julia ", VERSION)'
+    )
+    run = subprocess.run([*JULIA, "-e", asked], capture_output=True, check=False, stdin=subprocess.DEVNULL, text=True)
+    return run.stdout.strip() or None
+
+
 def _fault_id() -> str | None:
     """The clone has no version of its own: the first digits of the SHA-256 of the two functions called stand for it."""
     folder, octave = Path(os.environ.get(FAULT_ID, "")), _octave()
@@ -84,6 +103,9 @@ def _script(name: str, title: str, file: str, needs: str, version: Callable[[], 
 
 CLONE = f"GNU Octave, a clone of github.com/ggleizer/fault_id, and its folder in the environment variable {FAULT_ID}"
 CONTROL = "GNU Octave with its package control"
+PENCILS = (
+    f"Julia with its package MatrixPencils, which it finds by itself or in the folder that the environment variable {MATRIX_PENCILS} names"
+)
 PEERS = (
     _python("sippy_unipi", "sippy_unipi: MOESP, defaults (no D)", "sippy_adapter", "sippy_unipi"),
     _python("sippy_unipi-D", "sippy_unipi: MOESP with SS_D_required=True", "sippy_adapter:with_feedthrough", "sippy_unipi"),
@@ -94,6 +116,15 @@ PEERS = (
     _python("python-control-alone", "python-control without slycot: StateSpace.zeros", "control_adapter:without_slycot", "control"),
     _python("slycot", "slycot (SLICOT): ab08nd", "slycot_adapter", "slycot"),
     _script("octave-control", "Octave's control (SLICOT): moesp; zero", "octave_control.m", CONTROL, partial(_octave, "control")),
+    Peer(
+        "matrix-pencils",
+        "MatrixPencils.jl: spzeros, sprank",
+        "Julia",
+        None,
+        (*JULIA, str(HERE / "matrix_pencils.jl")),
+        PENCILS,
+        _matrix_pencils,
+    ),
     _script("fault_id", "ggleizer/fault_id: PI-MOESP; rank and threshold of its exact example", "fault_id.m", CLONE, _fault_id),
     _script("fault_id-threshold", "ggleizer/fault_id: rank with the example's threshold 1", "fault_id.m", CLONE, _fault_id, "1"),
 )

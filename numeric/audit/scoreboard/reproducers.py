@@ -18,6 +18,7 @@ from ..peers import PEERS
 from ..upstream.reproducing import script
 
 FOLDER = "reproducers"
+ENDINGS = {"Python": "py", "Octave": "m", "Julia": "jl"}
 
 
 @dataclass(frozen=True)
@@ -31,19 +32,19 @@ class Reproducer:
 
 
 def reproducers(found: Sequence[tuple[str, str]]) -> Iterator[Reproducer]:
-    """Yield one for each (peer, full name of a check) that there is a script of: in Python for a package of Python, else in Octave. A check
+    """Yield one for each (peer, full name of a check) that there is a script of, in the language of the package. A check
     that is no more, as one of a board made by other vectors, has none, nor has one whose costs are measured in another language."""
     known = {one.name: one for one in PEERS}
     for name, check in found:
         if name not in known:
             continue
-        language, ending = ("python", "py") if known[name].language == "Python" else ("octave", "m")
+        language = known[name].language
         try:
-            text = script(check, FUNCTIONS, language, peer=name)
+            text = script(check, FUNCTIONS, language.lower(), peer=name)
         except InvalidData:
             continue
         file = re.sub(r"[^A-Za-z0-9_]+", "_", check).strip("_")
-        yield Reproducer(name, check, f"{FOLDER}/{name}/{file}.{ending}", text)
+        yield Reproducer(name, check, f"{FOLDER}/{name}/{file}.{ENDINGS[language]}", text)
 
 
 def write(folder: Path, scripts: Sequence[Reproducer]) -> None:

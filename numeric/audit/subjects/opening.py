@@ -20,7 +20,7 @@ from ....base.errors import InvalidData
 from ....base.processes import Limits
 from ..adapter import excused, guarded, not_promised
 from ..diagnosing.explaining import explained
-from ..peers import FAULT_ID
+from ..peers import VARIABLES
 from ..peers import peer as peer_named
 from ..records import Check, CheckResult, perform
 from ..signatures import fitting
@@ -76,7 +76,7 @@ def opened(adapter: object, command: Command | None, peer: str | None, limits: L
         if found.version() is None:
             raise InvalidData(f"{found.name} is not installed here; needed is: {found.needs}")
         adapter, command = found.adapter, found.command
-        limits = replace(limits, passed=(*limits.passed, FAULT_ID))  # where its clone is, no program can know else
+        limits = replace(limits, passed=(*limits.passed, *VARIABLES))  # where a clone or a package is, no program can know else
     if command is not None:
         with Exec(command, limits) as program:
             yield InProcess(program)

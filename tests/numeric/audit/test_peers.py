@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import importlib.util
+import shutil
 import subprocess
 import sys
+from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 from faultspace.base.errors import InvalidData
+from faultspace.base.processes import STANDARD
 from faultspace.numeric.audit.adapter import load, offered
 from faultspace.numeric.audit.checks.catalogue import all_checks
-from faultspace.numeric.audit.peers import FAULT_ID, HERE, OCTAVE, PEERS, peer
-from faultspace.numeric.audit.records import CheckResult, Status
+from faultspace.numeric.audit.peers import FAULT_ID, HERE, JULIA, MATRIX_PENCILS, OCTAVE, PEERS, peer
+from faultspace.numeric.audit.records import Broken, CheckResult, Status
 from faultspace.numeric.audit.running import audit
 from faultspace.numeric.audit.subjects.subprocess_adapter import Exec
 
@@ -28,6 +32,7 @@ OFFERED = {
     "python-control-alone": ["structure"],
     "slycot": ["structure"],
     "octave-control": ["identify", "structure"],
+    "matrix-pencils": ["structure"],
     "fault_id": ["identify", "window_ranks", "fault_dimension", "fault_space"],
     "fault_id-threshold": ["identify", "window_ranks", "fault_dimension", "fault_space"],
 }
@@ -46,6 +51,9 @@ RIGHT = [
     ("octave-control", "exact-recovery[n2-u1-p2]"),
     ("octave-control", "finite-zeros[zero-outside]"),
     ("octave-control", "infinite-zeros[square-half-proper]"),
+    ("matrix-pencils", "finite-zeros[zero-outside]"),
+    ("matrix-pencils", "infinite-zeros[chain-of-delays]"),
+    ("matrix-pencils", "refuses-shapes[two-faults]"),
     ("fault_id", "exact-recovery[n2-u1-p2]"),
     ("fault_id", "consistent-under-coloured-fault[coloured]"),
     ("fault_id", "fault-space[two-faults]"),
@@ -63,6 +71,8 @@ WRONG = [
     ("ctrlsys", "refuses-shapes[two-faults]", "fail"),  # an array smaller than told
     ("ctrlsys", "exact-recovery[n2-u1-p1]", "fail"),  # B and D of ib01bd
     ("octave-control", "long-window[n4-u2-p3-s20]", "broken"),  # IB01BD: parameter 30
+    ("matrix-pencils", "finite-zeros[zeros-outside]", "fail"),  # the default tolerance
+    ("matrix-pencils", "refuses-nan-model[two-faults]", "fail"),
     ("fault_id", "exact-recovery[n2-u2-p2-at-rest]", "fail"),  # n_u > 1: an interleaved reshape
     ("fault_id", "fault-space-long-window[two-faults]", "fail"),  # floor of a fractional range
     ("fault_id", "fault-space-1e6[two-faults]", "fail"),  # singular values above 1e-10
@@ -72,11 +82,21 @@ WRONG = [
 ]
 
 
+@cache
+def _in_julia(name: str) -> dict[str, CheckResult]:
+    """All that the tests ask of such a peer, of one process: it takes half a minute to start."""
+    checks = [two for who, two in RIGHT if who == name] + [two for who, two, _ in WRONG if who == name]
+    with Exec(peer(name).command or (), replace(STANDARD, passed=(MATRIX_PENCILS,))) as program:
+        return {record.name: record for record in audit(program, only=checks)}
+
+
 def _asked(name: str, *checks: str) -> dict[str, CheckResult]:
     """Records by name; skips where the peer is not here."""
     one = peer(name)
     if one.version() is None:
         pytest.skip(f"{name}: {one.needs}")
+    if one.language == "Julia":
+        return _in_julia(name)
     if one.adapter is not None:
         return {record.name: record for record in audit(load(one.adapter), only=checks)}
     with Exec(one.command or ()) as program:
@@ -86,10 +106,11 @@ def _asked(name: str, *checks: str) -> dict[str, CheckResult]:
 def test_the_registry_is_well_formed() -> None:
     assert len({one.name for one in PEERS}) == len(PEERS) and set(OFFERED) == {one.name for one in PEERS}
     for one in PEERS:
-        assert (one.adapter is None) != (one.command is None) and one.language == ("Octave" if one.adapter is None else "Python")
+        assert (one.adapter is None) != (one.command is None)
+        assert one.language == ("Python" if one.command is None else "Julia" if one.command[0] == JULIA[0] else "Octave")
         assert one.needs and "\n" not in one.needs and peer(one.name) is one
         place = importlib.util.find_spec(one.adapter.partition(":")[0]) if one.adapter else None
-        assert place is not None if one.adapter else Path((one.command or ())[len(OCTAVE)]).is_file()
+        assert place is not None if one.adapter else Path((one.command or ())[len(JULIA if one.language == "Julia" else OCTAVE)]).is_file()
     with pytest.raises(InvalidData, match="nfoursid"):
         peer("nobody")
 
@@ -114,7 +135,7 @@ def test_what_a_peer_offers(name: str) -> None:
     if one.adapter is not None:
         assert sorted(offered(load(one.adapter))) == sorted(OFFERED[name])
     else:
-        with Exec(one.command or ()) as program:
+        with Exec(one.command or (), replace(STANDARD, passed=(MATRIX_PENCILS,))) as program:
             assert sorted(offered(program)) == sorted(OFFERED[name])
 
 
@@ -159,3 +180,23 @@ def test_numbers_pass_through_octave_to_the_last_bit() -> None:
     with Exec([*OCTAVE, "--eval", program]) as echo:
         question = {"call": "residual", "r": rows}
         assert echo._ask({**question})["r"] == [[1 / 3, -2 / 7e11], [1e-300 / 3, "Infinity"], [2**53 + 2.0, -0.1]]
+
+
+@pytest.mark.skipif(shutil.which(JULIA[0]) is None, reason="Julia is not installed")
+def test_numbers_pass_through_julia_to_the_last_bit_and_its_errors_are_told_apart() -> None:
+    """Of a matrix without rows JSON does not tell the columns: F has those of G, G those of F, C and A those of A."""
+    program = f"""include("{HERE / "json_lines.jl"}")
+        structure(A, F, C, G) = size(G) == (1, 1) ? error("no \\"such\\" thing") : size(G) == (2, 1) ? G[3, 1] :
+            (normal_rank = size(F, 2), finite_zeros = [complex.(vec(A)); 1.0im], infinite_zero_orders = [size(C, 2)],
+             left_invertible = true)
+        answer_questions((structure = structure,), "{{\\"call\\": \\"structure\\", \\"A\\": [], \\"F\\": [], \\"C\\": [], \\"G\\": []}}")"""
+    question = {"call": "structure", "C": [], "F": [[], []], "G": []}
+    with Exec([*JULIA, "-e", program]) as echo:
+        numbers = [[1 / 3, -2 / 7e11], [1e-300 / 3, float("inf")]]
+        expected = [[1 / 3, 0.0], [1e-300 / 3, 0.0], [-2 / 7e11, 0.0], ["Infinity", 0.0], [0.0, 1.0]]
+        answer = echo._ask({**question, "A": numbers})
+        assert (answer["finite_zeros"], answer["normal_rank"], answer["infinite_zero_orders"]) == (expected, 0, [2])
+        assert echo._ask({**question, "A": [], "F": [], "G": [[1, 2, 3]]})["normal_rank"] == 3
+        assert echo._ask({**question, "A": [], "F": [], "G": [[1]]}) == {"refused": 'no "such" thing'}
+        with pytest.raises(Broken, match="BoundsError"):
+            echo._ask({**question, "A": [], "F": [], "G": [[1], [2]]})

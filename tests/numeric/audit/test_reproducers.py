@@ -17,7 +17,8 @@ from typing import Any
 
 import pytest
 
-from faultspace.numeric.audit.peers import FAULT_ID, PEERS
+from faultspace.numeric.audit.peers import FAULT_ID, JULIA, PEERS
+from faultspace.numeric.audit.peers import peer as peer_named
 from faultspace.numeric.audit.scoreboard.pages import found
 from faultspace.numeric.audit.scoreboard.records import Board
 
@@ -51,7 +52,9 @@ def test_each_finding_has_a_script_that_the_page_links() -> None:
 def test_a_script_needs_numpy_and_its_package_alone() -> None:
     for one in SCRIPTS:
         text = one.read_text("utf-8")
-        assert "import faultspace" not in text and "from faultspace" not in text and "source(" not in text, one.name
+        assert "import faultspace" not in text and "from faultspace" not in text and "source(" not in text and "include(" not in text, (
+            one.name
+        )
 
 
 def test_what_runs_a_script_is_known() -> None:
@@ -69,6 +72,8 @@ def _lacks(peer: str) -> str:
             return "" if importlib.util.find_spec(IMPORTED[peer]) else f"{IMPORTED[peer]} is not installed"
         known = subprocess.run([PYTHON, "-c", f"import {IMPORTED[peer]}"], capture_output=True, check=False)
         return "" if known.returncode == 0 else f"{PYTHON} has no {IMPORTED[peer]}"
+    if peer_named(peer).language == "Julia":
+        return "" if peer_named(peer).version() else peer_named(peer).needs
     if shutil.which("octave-cli") is None:
         return "GNU Octave is not installed"
     if peer == "octave-control":
@@ -85,8 +90,8 @@ def _finding(file: Path) -> str:
 
 
 def _case(file: Path) -> Any:
-    """Return a script as a case; where the failure is that no answer comes, it takes its whole time."""
-    marks = [pytest.mark.slow] if "no answer within" in _finding(file) else []
+    """Return a script as a case; it takes its whole time where no answer comes, and half a minute in Julia."""
+    marks = [pytest.mark.slow] if "no answer within" in _finding(file) or file.suffix == ".jl" else []
     return pytest.param(file, id=f"{file.parent.name}/{file.stem}", marks=marks)
 
 
@@ -94,7 +99,8 @@ def _case(file: Path) -> Any:
 def test_a_script_shows_its_failure(file: Path) -> None:
     if lacking := _lacks(file.parent.name):
         pytest.skip(lacking)
-    command = [PYTHON, "-W", "ignore", str(file)] if file.suffix == ".py" else ["octave-cli", "--no-gui", "--quiet", "--norc", str(file)]
+    interpreters = {".py": [PYTHON, "-W", "ignore"], ".m": ["octave-cli", "--no-gui", "--quiet", "--norc"], ".jl": list(JULIA)}
+    command = [*interpreters[file.suffix], str(file)]
     more = ["1"] if file.parent.name == "fault_id-threshold" else []
     try:
         ran = subprocess.run([*command, *more], capture_output=True, text=True, timeout=SECONDS, check=False, stdin=subprocess.DEVNULL)

@@ -278,14 +278,6 @@ def test_the_reader_in_octave_passes_a_minimal_implementation_and_fails_a_broken
     assert "failed: fault-dimension[two-faults]-fault_dimension" in wrong.stdout
 
 
-@pytest.mark.skipif(shutil.which("julia") is None, reason="Julia is not installed")
-def test_the_reader_in_julia_runs(folder: Path, tmp_path: Path) -> None:
-    mine = tmp_path / "mine.jl"
-    mine.write_text('fault_dimension(r) = any(isnan, r) ? error("NaN") : 2\n', "utf-8")
-    ran = run("julia", "read_checks.jl", ".", str(mine), cwd=folder)
-    assert " checks, " in ran.stdout, ran.stderr
-
-
 @pytest.mark.skipif(shutil.which("matlab") is None, reason="MATLAB is not installed")
 def test_the_reader_in_matlab_passes_a_minimal_implementation(folder: Path) -> None:
     batch = f"addpath('{HERE / 'minimal'}'); exit(numel(read_checks('.', minimal())));"

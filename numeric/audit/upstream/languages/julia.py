@@ -28,7 +28,7 @@ function nearest(got, expected)  # in the order of those of expected that they a
     left = collect(ComplexF64, got)
     return length(left) == length(expected) ? [splice!(left, argmin(abs.(left .- z))) for z in expected] : left
 end
-basis(M) = (F = svd(M / max(maximum(abs, M; init = 0.0), floatmin())); F.U[:, F.S .> 1e-12 * maximum(F.S; init = 0.0)])
+basis(M) = (F = svd(M / max(mapreduce(abs, max, M; init = 0.0), floatmin())); F.U[:, F.S .> 1e-12 * reduce(max, F.S; init = 0.0)])
 angle_of(P, Q) = size(P) == size(Q) ? opnorm(P - Q * (Q' * P)) : 1.0
 sine(got, expected) = angle_of(basis(got), basis(expected))  # of the largest angle, 1 for unlike dimensions
 matrix(x) = x isa AbstractMatrix ? x : reshape(collect(x), :, 1)

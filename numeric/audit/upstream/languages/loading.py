@@ -34,8 +34,10 @@ def loaded(
             module, _, attribute = known.adapter.rpartition(".")[2].partition(":")
             bound = [f"{function} = {attribute}.{function}"] if attribute else []
             return [f"# -- how {known.title} is called", *inlined(module).splitlines(), *bound, "", "# -- the question"]
-        if language == "octave" and known.command is not None:
+        if language == "octave" == known.language.lower() and known.command is not None:
             return [f"% -- how {known.title} is called", *_octave(Path(known.command[4]), function), "", "% -- the question"]
+        if language == "julia" == known.language.lower() and known.command is not None:
+            return [f"# -- how {known.title} is called", *_without_protocol(Path(known.command[-1]), "include("), "", "# -- the question"]
     if language == "python" and command is None and peer is None:
         return [*_imported(function, adapter), "", "# -- the question"]
     return [
@@ -89,13 +91,17 @@ def _promises(node: ast.stmt) -> bool:
     return isinstance(node, ast.ImportFrom) and node.module == "_promises"
 
 
+def _without_protocol(file: Path, loading: str) -> list[str]:
+    """Return the lines of a peer's script, but the first, which is of the protocol, and those that load the protocol or answer by it."""
+    return [one for one in file.read_text("utf-8").splitlines()[1:] if not one.startswith((loading, "answer_questions("))]
+
+
 def _octave(file: Path, function: str) -> list[str]:
     """Return the functions of a peer's script, which take a question as a struct, and one of the audit's name for them."""
     from ...signatures import ARGUMENTS
     from ...subjects.subprocess_adapter import ANSWERS
 
-    skipped = ("source(", "answer_questions(")
-    lines = ["1;", *(one for one in file.read_text("utf-8").splitlines()[1:] if not one.startswith(skipped))]
+    lines = ["1;", *_without_protocol(file, "source(")]
     lines = [one.replace(f"= {function}(q)", f"= asked_{function}(q)") for one in lines]
     names, answers = ARGUMENTS[function], ANSWERS[function]
     given = ", ".join(f'"{name}", {name}' for name in names)

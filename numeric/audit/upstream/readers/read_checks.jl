@@ -15,7 +15,7 @@ function pairs_off(got, true_, bounds)  # nearest pairs, narrow bounds first
     end
     return worst
 end
-basis(M) = (F = svd(M / max(maximum(abs, M; init = 0.0), floatmin())); F.U[:, F.S .> 1e-12 * maximum(F.S; init = 0.0)])
+basis(M) = (F = svd(M / max(mapreduce(abs, max, M; init = 0.0), floatmin())); F.U[:, F.S .> 1e-12 * reduce(max, F.S; init = 0.0)])
 angle_of(P, Q) = size(P) == size(Q) ? opnorm(P - Q * (Q' * P)) : 1.0
 sine(got, true_) = angle_of(basis(got), basis(true_))  # of the largest angle between the spaces of the columns, 1 for unlike dimensions
 charpoly_tail(A) = real(foldl((c, z) -> [c; 0] - z * [0; c], eigvals(A); init = [1.0 + 0im]))[2:end]
@@ -24,12 +24,12 @@ function ratio(due, answer)  # how far the answer is off, over what is allowed
     of, truth, bounds = due["of"], due["floats"], due["bounds"]
     given = Dict(name => one["floats"] for (name, one) in due["given"])
     of == "eigenvalues" && return pairs_off(eigvals(answer[1]), complexes(truth), bounds)
-    within(got) = maximum(abs.(got - numbers(truth)) ./ numbers(bounds); init = 0.0)
+    within(got) = reduce(max, abs.(got - numbers(truth)) ./ numbers(bounds); init = 0.0)
     of == "polynomial" && return within(charpoly_tail(answer[1]))
     of == "transfer" && return within(reshape(answer[4] + answer[3] * ((given["z"] * I - answer[1]) \ answer[2]), 1, size(answer[4])...))
     of == "markov" && return within(permutedims(cat(powers(answer..., length(truth))...; dims = 3), (3, 1, 2)))
     seen(c, off) = norm(sum(off[k:end-size(c, 1)+k, :] * c[k, :] for k in axes(c, 1)))
-    of == "residual" && return maximum(seen(numbers(c), answer - numbers(truth)) / b for (c, b) in zip(given["kernel_rows"], bounds); init = 0.0)
+    of == "residual" && return reduce(max, [seen(numbers(c), answer - numbers(truth)) / b for (c, b) in zip(given["kernel_rows"], bounds)]; init = 0.0)
     of == "signal" && return norm(answer[1:length(truth), :] - numbers(truth)) / bounds
     of == "space" && return sine(answer, numbers(truth)) / bounds
     stacked(A, C, Z) = vcat(Z[size(A, 1)+1:end, :], (C * A^k * Z[1:size(A, 1), :] for k in 0:given["window"]-2)...)
