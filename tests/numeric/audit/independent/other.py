@@ -186,10 +186,7 @@ def fault_dimension(r: Array) -> int:
 
 
 def _difference_equation(y: Array, u: Array, n: int, lags: int, instruments: bool) -> tuple[Array, float, float]:
-    """Return the coefficients of y(k) by y(k-1), ..., and by u(k), ..., what they leave, and what rounding may.
-
-    With `instruments`, past inputs stand in for outputs.
-    """
+    """Return the coefficients of y(k) by y(k-1), .. and u(k), .., what they leave, and what rounding may; as instruments, past inputs."""
     m = u.shape[1]
     past = 2 * lags + 1 if instruments else lags
     length = len(y) - past
@@ -208,8 +205,7 @@ def _difference_equation(y: Array, u: Array, n: int, lags: int, instruments: boo
         Q = np.linalg.qr(Z)[0]
         X, Y = Q.T @ X, Q.T @ Y
     R = _triangle(np.hstack([X, Y]))
-    width = X.shape[1]
-    U, sigma, V = np.linalg.svd(R[:, :width], full_matrices=False)
+    U, sigma, V = np.linalg.svd(R[:, : (width := X.shape[1])], full_matrices=False)
     if k > width or (k and (len(sigma) < k or sigma[k - 1] <= _floor(R))):
         raise ValueError(f"the data do not show {n} states in {lags} lags")
     theta = V[:k].T @ (U[:, :k].T @ R[:, width:] / sigma[:k, None])
@@ -231,7 +227,6 @@ def _impulse_response(theta: Array, p: int, m: int, lags: int, length: int) -> A
 def _realised(response: Array, free: Array, n: int, s: int) -> Four:
     """Return A, B, C, D of order n from an impulse response and a free response (2 s samples each): Ho and Kalman's way."""
     p, m = response.shape[1:]
-    first = response[1 : s + 1].reshape(s * p, m)
     columns = [response[1 + j : 1 + j + s].reshape(s * p, m) for j in range(s - 1)]
     columns += [free[j : j + s].reshape(s * p, -1) for j in range(s)]
     U, sigma, _ = np.linalg.svd(np.hstack(columns), full_matrices=False)
@@ -240,7 +235,7 @@ def _realised(response: Array, free: Array, n: int, s: int) -> Four:
     gamma = U[:, :n]
     if n and np.linalg.svd(gamma[:-p], compute_uv=False)[-1] < 1e-2 * np.sqrt(EPS):
         raise ValueError(f"a window of {s} is too short for these {n} states")
-    return np.linalg.lstsq(gamma[:-p], gamma[p:], rcond=None)[0], gamma.T @ first, gamma[:p], response[0]
+    return np.linalg.lstsq(gamma[:-p], gamma[p:], rcond=None)[0], gamma.T @ response[1 : s + 1].reshape(s * p, m), gamma[:p], response[0]
 
 
 def identify(y: Array, u: Array, order: int, block_rows: int) -> Four:
@@ -252,11 +247,9 @@ def identify(y: Array, u: Array, order: int, block_rows: int) -> Four:
         raise ValueError(f"a window of {s} carries no order {n} with {p} outputs")
     if N - 2 * s + 1 < 2 * s * m + max(n, 1):
         raise ValueError(f"{N} samples are too few for {s} block rows of past and future")
-    y, of_y = _scaled(y)
-    u, of_u = _scaled(u)
+    (y, of_y), (u, of_u) = _scaled(y), _scaled(u)
     theta, left, floor = _difference_equation(y, u, n, lags, instruments=False)
-    noisy = left > floor
-    if noisy:
+    if noisy := left > floor:
         theta, _, _ = _difference_equation(y, u, n, lags, instruments=True)
     response = _impulse_response(theta, p, m, lags, 2 * s)
     free = np.zeros((2 * s, p, 0))
@@ -275,8 +268,7 @@ def _output_error(y: Array, u: Array, A: Array, B: Array, C: Array, D: Array) ->
     best, x0 = None, np.zeros(n)
     for _ in range(30):
         X = _driven(A, u @ B.T, x0)
-        E = y - X @ C.T - u @ D.T
-        size = np.linalg.norm(E)
+        size = np.linalg.norm(E := y - X @ C.T - u @ D.T)
         if not np.isfinite(size) or (best is not None and size >= best[0] * (1 - 1e-9)):
             break
         best = size, (A, B, C, D)
@@ -447,19 +439,12 @@ def _reached(A: Array, F: Array, C: Array, G: Array, tolerance: float) -> list[A
 
 
 def _nearer(A: Array, F: Array, C: Array, G: Array, zero: complex) -> complex:
-    """Return what two steps of Newton's method make of a simple zero; where it is not simple, what is close to it stays as it is."""
-    n, slope = len(A), np.zeros((len(A) + len(C), len(A) + F.shape[1]))
-    slope[:n, :n] = np.eye(n)
-    for _ in range(2):
-        U, sigma, V = np.linalg.svd(np.block([[zero * np.eye(n) - A, -F], [C, G]]))
-        last = len(V) - 1
-        left, right = U[:, last].conj(), V[last].conj()
-        change = left @ slope @ right
-        step = sigma[last] / change if abs(change) > np.sqrt(EPS) else 0.0
-        if abs(step) > 1e-3 * max(1.0, abs(zero)):
-            break
-        zero = zero - step
-    return complex(zero)
+    """Return what a step of Newton's method makes of a simple zero; where it is not simple, it stays."""
+    n = len(A)
+    U, sigma, V = np.linalg.svd(np.block([[zero * np.eye(n) - A, -F], [C, G]]))
+    change = U[:n, len(V) - 1].conj() @ V[-1, :n].conj()
+    step = sigma[-1] / change if abs(change) > np.sqrt(EPS) else 0.0
+    return complex(zero - step) if abs(step) <= 1e-3 * max(1.0, abs(zero)) else zero
 
 
 def structure(A: Array, F: Array, C: Array, G: Array) -> dict[str, Any]:
@@ -475,8 +460,7 @@ def structure(A: Array, F: Array, C: Array, G: Array) -> dict[str, Any]:
         F, G = F / of_v, G / of_v
         of_r = _scaled(np.hstack([C, G]).T)[1]
         C, G = C / of_r[:, None], G / of_r[:, None]
-    whole = np.block([[A, F], [C, G]])
-    tolerance = _floor(whole) * (n + 1)
+    tolerance = _floor(np.block([[A, F], [C, G]])) * (n + 1)
     chain = _reached(A, F, C, G, tolerance)
     V, tolerance = _output_nulling(A, F, C, G, tolerance)
     dimensions = [_rank(np.hstack([V, S]), tolerance) for S in [np.empty((n, 0)), *chain]]
@@ -484,18 +468,16 @@ def structure(A: Array, F: Array, C: Array, G: Array) -> dict[str, Any]:
     # The inputs that keep V* within itself and the output at zero, less those that reach R*, are lost to the output; all others are seen.
     lost = _split(np.vstack([_split(V.T)[1].T @ F, G]), tolerance)[1].shape[1]
     normal_rank = m - lost
-    exactly = -np.diff([normal_rank, *at_least, 0])
-    orders = [order for order, number in enumerate(exactly) for _ in range(number)]
-    S = chain[-1]
-    both = _split(np.hstack([V, -S]), tolerance)[1]
+    orders = [order for order, number in enumerate(-np.diff([normal_rank, *at_least, 0])) for _ in range(number)]
+    both = _split(np.hstack([V, -chain[-1]]), tolerance)[1]
     controlled = _split((V @ both[: V.shape[1]]).T, tolerance)[0]
-    beyond = V @ _split(controlled.T @ V, tolerance)[1]
-    basis = np.hstack([controlled, beyond])
-    d = basis.shape[1]
+    basis = np.hstack([controlled, V @ _split(controlled.T @ V, tolerance)[1]])
+    d, c = basis.shape[1], controlled.shape[1]
     left = np.block([[basis, -F], [np.zeros((p, d)), -G]])
     X = np.linalg.lstsq(left, np.vstack([A @ basis, C @ basis]), rcond=tolerance)[0][:d] if d else np.empty((0, 0))
-    c = controlled.shape[1]
-    zeros = [_nearer(A, F, C, G, complex(z)) if normal_rank == m else complex(z) for z in np.linalg.eigvals(X[c:, c:])]
+    zeros = [complex(z) for z in np.linalg.eigvals(X[c:, c:])]
+    if normal_rank == m:
+        zeros = [_nearer(A, F, C, G, _nearer(A, F, C, G, z)) for z in zeros]
     return {
         "normal_rank": normal_rank,
         "finite_zeros": zeros,
