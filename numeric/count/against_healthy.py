@@ -347,7 +347,7 @@ def _columns(A: Array, C: Array, frequencies: Array, p: int) -> Complex:
     n = A.shape[0]
     if A.shape != (n, n) or C.shape != (p, n):
         raise InvalidData(f"A, C: got shapes {A.shape}, {C.shape}; needed (n, n), ({p}, n) for a residual of {counted(p, 'channel')}")
-    schur, turn = scipy.linalg.schur(A, output="complex") if n else (A, A)
+    schur, turn = scipy.linalg.schur(A, output="complex")
     turned = C @ turn
     states = np.empty((len(frequencies), p, n), dtype=complex)
     for k, point in enumerate(np.exp(2j * np.pi * frequencies)):

@@ -199,8 +199,7 @@ def _solved(upper: Array, right: Array) -> Array:
     if not len(upper):
         return np.zeros((0, right.shape[1]))
     level = len(upper) * EPS
-    factor = np.triu(upper)  # with the unit matrix as the other factor; older releases of SciPy lack dtrcon
-    reciprocal, _ = lapack.dgecon(factor, np.linalg.norm(factor, 1))
+    reciprocal, _ = lapack.dtrcon(upper)
     if reciprocal > level:
         return np.asarray(solve_triangular(upper, right, check_finite=False))
     return np.asarray(lstsq(upper, right, cond=level, check_finite=False)[0])

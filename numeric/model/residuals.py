@@ -284,12 +284,8 @@ class SplitModel:
 def split(model: StateSpaceModel, samples: int) -> SplitModel:
     """Separate the modes that grow by more than GROWTH over the record from the others."""
     radius = _radius(samples)
-    schur, turn, ahead = model.A, np.eye(model.n), 0
-    if model.n:  # older releases of SciPy refuse what is empty, here and below
-        schur, turn, ahead = scipy.linalg.schur(model.A, output="real", sort=lambda re, im: bool(np.hypot(re, im) <= radius))
-    coupling = np.zeros((ahead, model.n - ahead))
-    if coupling.size:
-        coupling = scipy.linalg.solve_sylvester(schur[:ahead, :ahead], -schur[ahead:, ahead:], -schur[:ahead, ahead:])
+    schur, turn, ahead = scipy.linalg.schur(model.A, output="real", sort=lambda re, im: bool(np.hypot(re, im) <= radius))
+    coupling = scipy.linalg.solve_sylvester(schur[:ahead, :ahead], -schur[ahead:, ahead:], -schur[:ahead, ahead:])
     basis = turn.copy()
     basis[:, ahead:] += turn[:, :ahead] @ coupling
     inputs = turn.T @ model.B
