@@ -25,6 +25,7 @@ import numpy as np
 import scipy.linalg
 
 from ...base.arrays import Array
+from .triangles import stacked_triangle
 
 ROUNDINGS = 64.0
 SPREAD = 30.0
@@ -55,14 +56,9 @@ def hankel_triangle(r: Array, windows: int, *, chunk: int = 4096) -> Array:
     samples, p = r.shape
     width = windows * p
     columns = samples - windows + 1
-    triangle = np.zeros((0, width))
     step = max(chunk, width)
-    for start in range(0, columns, step):
-        stop = min(start + step, columns)
-        part = np.hstack([r[start + j : stop + j] for j in range(windows)])
-        (triangle,) = scipy.linalg.qr(np.vstack([triangle, part]), mode="r", overwrite_a=True, check_finite=False)
-        triangle = triangle[:width]
-    return triangle
+    pieces = ((start, min(start + step, columns)) for start in range(0, columns, step))
+    return stacked_triangle(width, (np.hstack([r[start + j : stop + j] for j in range(windows)]) for start, stop in pieces))
 
 
 def hankel_values(r: Array, windows: int) -> tuple[Array, ...]:

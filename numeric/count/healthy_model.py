@@ -31,7 +31,7 @@ nothing.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -47,6 +47,7 @@ from ..count.largest_root import largest_root_quantile
 from ..count.windows import channel_sizes
 from ..data.plain import plain
 from ..data.validation import signal
+from .triangles import stacked_triangle
 
 Complex = NDArray[np.complex128]
 
@@ -358,25 +359,15 @@ def _about_means(past: Array, now: Array) -> tuple[Array, Array]:
 def _triangle(r: Array, u: Array, lags: int) -> Array:
     """Return the triangle of [u(k), r(k-1) u(k-1) .. r(k-lags) u(k-lags), r(k)] over k = lags .. N - 1: fewer lags are leading columns."""
     split = (r.shape[1] + u.shape[1]) * lags
-    return stacked_triangle(np.hstack([past[:, split:], past[:, :split], now]) for past, now in lagged_stretches(r, u, lags))
+    rows = (np.hstack([past[:, split:], past[:, :split], now]) for past, now in lagged_stretches(r, u, lags))
+    return stacked_triangle(u.shape[1] + split + r.shape[1], rows)
 
 
 def lagged_stretches(r: Array, u: Array, lags: int) -> Iterator[tuple[Array, Array]]:
-    """Yield what `lagged` returns, at most STRETCH rows at a time, so that memory does not grow with the record; at least once."""
-    for start in range(0, max(len(r) - lags, 1), STRETCH):
+    """Yield what `lagged` returns, at most STRETCH rows at a time, so that memory does not grow with the record."""
+    for start in range(0, len(r) - lags, STRETCH):
         stretch = slice(start, start + STRETCH + lags)
         yield lagged(r[stretch], u[stretch], lags)
-
-
-def stacked_triangle(blocks: Iterable[Array]) -> Array:
-    """Return the triangle R of the QR factorisation of these blocks of rows, one below the other: as many rows as columns, or fewer."""
-    triangle: Array | None = None
-    for block in blocks:
-        rows = block if triangle is None else np.vstack([triangle, block])
-        triangle = np.asarray(scipy.linalg.qr(rows, mode="r", check_finite=False)[0])[: rows.shape[1]]
-    if triangle is None:
-        raise ValueError("no block of rows")
-    return triangle
 
 
 def number_of_lags(r: Array, u: Array) -> int:

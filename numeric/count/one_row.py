@@ -31,6 +31,7 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ...base.sheets import counted
 from ..data.validation import signal
+from .triangles import stacked_triangle
 
 BANDS = 64
 SEGMENT = 2048
@@ -124,11 +125,8 @@ def window_moments(r: Array, degree: int, *, u: Array | None = None, bands: int 
     edges = np.linspace(0, windows, pieces + 1).astype(int)
     explained = np.zeros((inputs.shape[1] * (before + degree + 1), size))
     if before:
-        triangle = np.zeros((0, len(explained) + size))
-        for start, stop in pairwise(edges.tolist()):
-            psi, pushes = outputs_and_inputs(start, stop)
-            triangle = np.asarray(np.linalg.qr(np.vstack([triangle, np.hstack([pushes, psi])]), mode="r"))
-        lead = triangle[: len(explained)]
+        both = (outputs_and_inputs(start, stop) for start, stop in pairwise(edges.tolist()))
+        lead = stacked_triangle(len(explained) + size, (np.hstack([pushes, psi]) for psi, pushes in both))[: len(explained)]
         explained = np.linalg.lstsq(lead[:, : len(explained)], lead[:, len(explained) :], rcond=None)[0]
     for start, stop in pairwise(edges.tolist()):
         psi, pushes = outputs_and_inputs(start, stop)

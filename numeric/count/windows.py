@@ -16,10 +16,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
 from ...base.arrays import Array
+from .triangles import stacked_triangle
 
 EPS = float(np.finfo(float).eps)
 # Numbers held at a time while the Hankel matrix passes by.
@@ -33,12 +35,10 @@ def hankel_factor(r: Array, s: int) -> Array:
     N, p = r.shape
     width = p * s
     windows = np.lib.stride_tricks.sliding_window_view(r, s, axis=0)  # (N - s + 1, p, s)
-    factor: Array = np.zeros((width, width))
     step = max(CHUNK // max(width, 1), 2 * width, 1)
-    for start in range(0, N - s + 1, step):
-        rows = windows[start : start + step].transpose(0, 2, 1).reshape(-1, width)
-        factor = np.asarray(np.linalg.qr(np.vstack([factor, rows]), mode="r"))
-    return np.ascontiguousarray(factor.T)
+    blocks = (windows[start : start + step].transpose(0, 2, 1).reshape(-1, width) for start in range(0, N - s + 1, step))
+    square = np.zeros((width, width))  # so that the factor is square for however few windows
+    return np.ascontiguousarray(stacked_triangle(width, chain([square], blocks)).T)
 
 
 def leading_factor(factor: Array, rows: int) -> Array:

@@ -30,6 +30,7 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ...base.sheets import Shown, counted
 from ...base.threads import one_thread
+from ..count.triangles import stacked_triangle
 from ..data.plain import plain
 from ..data.records import SampleStore, stored
 from ..data.validation import experiment
@@ -312,10 +313,9 @@ def _powers(model: StateSpaceModel, first: int, count: int) -> Array:
 def _fit(parts: SplitModel, error: Array) -> tuple[Array, Array, int]:
     """Return theta by least squares, a matrix D with D D' = (Phi' Phi)^+, and the number of directions determined."""
     n = parts.basis.shape[0]
-    triangle = np.zeros((0, n + 1))
-    for start, stop, phi in parts.chunks():
-        rows = np.hstack([phi.reshape(phi.shape[0] * phi.shape[1], n), error[start:stop].reshape(-1, 1)])
-        triangle = np.asarray(np.linalg.qr(np.vstack([triangle, rows]), mode="r"))
+    chunks = parts.chunks()
+    rows = (np.hstack([phi.reshape(phi.shape[0] * phi.shape[1], n), error[start:stop].reshape(-1, 1)]) for start, stop, phi in chunks)
+    triangle = stacked_triangle(n + 1, rows)
     norms = np.linalg.norm(triangle[:, :n], axis=0)
     norms = np.where(norms > 0.0, norms, 1.0)
     left, values, right = np.linalg.svd(triangle[:, :n] / norms, full_matrices=False)

@@ -31,7 +31,8 @@ import scipy.linalg
 from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ...base.sheets import counted
-from ..count.healthy_model import lagged_stretches, number_of_lags, stacked_triangle
+from ..count.healthy_model import lagged_stretches, number_of_lags
+from ..count.triangles import stacked_triangle
 from ..model.models import StateSpaceModel, observability_matrix
 
 CANDIDATES = (1e-6, 1e-4, 1e-2, 1.0, 1e2)  # for q, beside 0
@@ -147,7 +148,7 @@ def innovation_form(model: StateSpaceModel, y: Array, u: Array, *, with_inputs: 
             f"{len(y) - count + FOLDS * (spent + len(e[0]) + 1)} are needed: give a longer record without fault"
         )
     parts = [slice(int(part[0]), int(part[-1]) + 1) for part in np.array_split(np.arange(count), FOLDS)]
-    triangles = [stacked_triangle(np.hstack(rows) for rows in _rows(e, pushed, lags, part)) for part in parts]
+    triangles = [stacked_triangle(spent + e.shape[1], map(np.hstack, _rows(e, pushed, lags, part))) for part in parts]
     coefficients, covariance = _regression(triangles, spent, count)
     judged = np.empty((count, e.shape[1]))
     single = np.empty_like(judged)
@@ -243,7 +244,7 @@ def _regression(triangles: Sequence[Array], spent: int, count: int) -> tuple[Arr
 
     The triangles are of `count` rows together, `spent` columns of regressors and then those of what is explained.
     """
-    whole = stacked_triangle(triangles)
+    whole = stacked_triangle(triangles[0].shape[1], triangles)
     X, now = whole[:, :spent], whole[:, spent:]
     coefficients = np.linalg.lstsq(X, now, rcond=None)[0]
     e = now - X @ coefficients

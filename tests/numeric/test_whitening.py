@@ -9,7 +9,8 @@ import pytest
 
 from faultspace.base.arrays import Array
 from faultspace.numeric import StateSpaceModel
-from faultspace.numeric.count.healthy_model import STRETCH, lagged, spectra, stacked_triangle
+from faultspace.numeric.count.healthy_model import STRETCH, lagged, spectra
+from faultspace.numeric.count.triangles import stacked_triangle
 from faultspace.numeric.monitor.innovation_form import FOLDS, innovation_form
 
 STATELESS = StateSpaceModel(np.zeros((0, 0)), np.zeros((0, 2)), np.zeros((3, 0)), np.zeros((3, 2)))
@@ -47,11 +48,11 @@ def test_every_sample_is_judged_as_by_all_rows_at_once(samples: int) -> None:
     np.testing.assert_allclose(found.errors, judged_at_once(y, u, found.form.lags), atol=1e-9)
 
 
-@pytest.mark.parametrize("heights", [[5], [1, 1, 1], [0, 7], [40, 3, 2], [2, 0]])
+@pytest.mark.parametrize("heights", [[], [0], [5], [1, 1, 1], [0, 7], [40, 3, 2], [2, 0]])
 def test_the_triangle_has_the_moments_of_all_blocks(heights: list[int]) -> None:
     rng = np.random.default_rng(0)
     blocks = [rng.normal(size=(height, 4)) for height in heights]
-    triangle, rows = stacked_triangle(blocks), np.vstack(blocks)
+    triangle, rows = stacked_triangle(4, blocks), np.vstack([np.zeros((0, 4)), *blocks])
     assert triangle.shape == (min(len(rows), 4), 4)
     np.testing.assert_allclose(triangle.T @ triangle, rows.T @ rows, atol=1e-12)
 
