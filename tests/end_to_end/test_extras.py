@@ -24,9 +24,20 @@ ABSENT = (
     "jsonschema",
     "pandas",
 )
-WITHOUT = (
-    f"import sys\nsys.modules.update(dict.fromkeys({ABSENT!r}))\nfrom faultspace.cli.command_line import main\nsys.exit(main(sys.argv[1:]))"
-)
+WITHOUT = f"""
+import sys
+from importlib import metadata
+
+def version(name, known=metadata.version):
+    if name in {ABSENT!r}:
+        raise metadata.PackageNotFoundError(name)
+    return known(name)
+
+metadata.version = version
+sys.modules.update(dict.fromkeys({ABSENT!r}))
+from faultspace.cli.command_line import main
+sys.exit(main(sys.argv[1:]))
+"""
 
 PROGRESS = re.compile(r"faultspace: .*( \.\.\.| \(\d+ of \d+.*\))")
 
