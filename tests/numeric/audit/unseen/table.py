@@ -12,7 +12,7 @@ mutant escapes that RULES.md does not call right.
 outcome     the slugs that fail, by how many checks, and one of the details; or what went wrong
 first_of    the first check that fails alone
 in_turn     the checks of a mutant's function, in the order in which they are asked for the first that fails
-still_caught    whether the check that is known to catch a mutant does so now, or another does when asked in turn
+still_caught    whether the check that is known to catch a mutant does so now; of one that remembers, whether another does in turn
 kept        mutant -> full name of a check that it failed when it was asked last
 escapes     names of those that no check catches
 """
@@ -111,11 +111,11 @@ def _the_known_apart(name: str, check_seconds: float, into: Any) -> None:
 
 
 def still_caught(one: Unseen, seconds: float = 300.0, check_seconds: float = 30.0) -> bool:
-    """Say whether a mutant is caught now: by the check that is known to catch it, or, where it remembers what it was asked before or
-    errs by chance, by a check that comes after others."""
-    ways = ((_the_known, 20.0), (_the_known_apart, 2 * check_seconds))
+    """Say whether the check that is known to catch a mutant does so now; or, of one that remembers what it was asked before, whether one
+    does that comes after others."""
+    ways = ((_the_known, 20.0), (_the_known_apart, seconds))
     alone = any(_asked(way, one, limit, check_seconds).get("failed") for way, limit in ways)
-    return alone or bool(first_of(one, seconds, check_seconds).get("failed"))
+    return alone or (one.remembers and bool(first_of(one, seconds, check_seconds).get("failed")))
 
 
 def outcome(one: Unseen, seconds: float, check_seconds: float) -> dict[str, Any]:

@@ -1,5 +1,6 @@
-"""An unseen mutant is caught today, by the check that is known to catch it or by one asked after others: all in a slow test, one in thirty
-daily."""
+"""An unseen mutant is caught today, by the check that is known to catch it, or, where it remembers, by one asked after others.
+
+All are asked in a slow test, one in thirty daily."""
 
 from __future__ import annotations
 
@@ -23,10 +24,10 @@ def test_each_has_a_check_that_there_is() -> None:
 
 @pytest.mark.parametrize("one", WRONG[::DAILY], ids=lambda one: one.name)
 def test_it_catches_the_mutant(one: Unseen) -> None:
-    assert still_caught(one), f"{kept()[one.name]} passes, and every other check: {one.wrong}"
+    assert still_caught(one), f"{kept()[one.name]} passes: {one.wrong}"
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("one", [one for i, one in enumerate(WRONG) if i % DAILY], ids=lambda one: one.name)
 def test_it_catches_the_others(one: Unseen) -> None:
-    assert still_caught(one), f"{kept()[one.name]} passes, and every other check: {one.wrong}"
+    assert still_caught(one), f"{kept()[one.name]} passes: {one.wrong}"
