@@ -39,8 +39,9 @@ Task = tuple[Any, ...]
 TRIES = 2
 # Tasks that each thread of a cluster has before it, so that none of them waits for us.
 AHEAD = 4
-# What a client raises that has no scheduler any more.
-GONE = (OSError, CancelledError, RuntimeError, AttributeError)
+# What a client raises that has no scheduler any more; the last where somebody else answers at the address, as a gate to other networks
+# does: eight of its letters, read as a length, are more bytes than there are.
+GONE = (OSError, CancelledError, RuntimeError, AttributeError, MemoryError)
 # Seconds between two looks at a cluster from which nothing comes.
 LOOK = 1.0
 
@@ -180,7 +181,7 @@ def _first(cluster: Shared, function: Callable[..., Result], waiting: deque[tupl
             cluster.lost = str(error)
         except distributed.KilledWorker:
             pass
-        except (OSError, CancelledError):
+        except GONE:
             if future.status == "error":
                 raise
             cluster.lost = str(_lost(cluster.address))
@@ -259,7 +260,7 @@ def _by_cluster(function: Callable[..., Result], tasks: Tasks, address: str) -> 
                     yield k, future.result()
                 except distributed.KilledWorker as error:
                     yield k, Died(" ".join(str(error).split()))
-                except (OSError, CancelledError):
+                except GONE:
                     if future.status == "error":  # the function's own
                         raise
                     raise _lost(address) from None
@@ -270,7 +271,7 @@ def _done(client: Any, futures: list[Any], address: str) -> list[Any]:
     wait: Any = import_module("distributed").wait
     idle = 0.0
     while idle < workers.PATIENCE:
-        with suppress(TimeoutError, OSError, CancelledError):
+        with suppress(*GONE):
             wait(futures, timeout=LOOK, return_when="FIRST_COMPLETED")
         statuses = [future.status for future in futures]
         if client.status != "running" or "cancelled" in statuses:
@@ -278,7 +279,10 @@ def _done(client: Any, futures: list[Any], address: str) -> list[Any]:
         if done := [future for future, status in zip(futures, statuses, strict=True) if status not in ("pending", "lost")]:
             return done
         # What is lost, with the worker that had it, is done again where there is one.
-        idle = 0.0 if "pending" in statuses and client.nthreads() else idle + LOOK
+        try:
+            idle = 0.0 if "pending" in statuses and client.nthreads() else idle + LOOK
+        except GONE:
+            raise _lost(address) from None
     raise InvalidData(f"cluster: the scheduler at {address} has done nothing for {workers.PATIENCE} s; start: dask worker {address}")
 
 

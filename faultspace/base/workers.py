@@ -10,6 +10,7 @@ version.
 
 from __future__ import annotations
 
+import logging
 import os
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
@@ -77,9 +78,11 @@ def _client(address: str) -> AbstractContextManager[Any]:
         distributed: Any = import_module("distributed")
     except ImportError:
         raise InvalidData("cluster: the package distributed is missing; pip install 'faultspace[cluster]'") from None
+    # It would print the tracebacks of what its caller says in a line.
+    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
     try:
         opened: AbstractContextManager[Any] = distributed.Client(address, timeout=PATIENCE)
-    except (OSError, ValueError, TypeError) as error:
+    except (OSError, ValueError, TypeError, AssertionError) as error:
         reason = " ".join(str(error).split()) or type(error).__name__
         raise InvalidData(f"cluster: no Dask scheduler answers at {address!r} ({reason}); an address is like tcp://HOST:8786") from None
     return opened

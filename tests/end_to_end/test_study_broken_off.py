@@ -47,7 +47,15 @@ def contents(folder: Path) -> dict[str, bytes]:
 
 def started(out: Path, *more: str, systems: str = FEW) -> subprocess.Popen[str]:
     line = [sys.executable, "-m", "faultspace", *ARGUMENTS, "--systems", systems, "--out", str(out), *more]
-    return subprocess.Popen(line, cwd=ROOT, env=environment(), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    return subprocess.Popen(
+        line, cwd=ROOT, env=environment(), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, preexec_fn=hear_signals
+    )
+
+
+def hear_signals() -> None:
+    """What a shell starts in the background ignores SIGINT, and so would what the tests start there."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
 
 
 def wait_for_cases(out: Path, process: subprocess.Popen[str], count: int) -> None:
