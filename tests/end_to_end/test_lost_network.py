@@ -7,6 +7,7 @@ and the right to make networks.
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -78,7 +79,9 @@ def test_a_network_that_is_lost_is_one_line_and_the_study_goes_on_without_it(tmp
         lose()
         said = [one for one in study.communicate(timeout=120)[1].splitlines() if not PROGRESS.fullmatch(one)]
     assert study.returncode == 2
-    assert len(said) == 1 and f"the scheduler at {address} was lost" in said[0] and "the same command with --resume goes on" in said[0]
+    # Between two plans of the study it is a scheduler that does not answer.
+    assert len(said) == 1 and address in said[0] and re.search("was lost|no Dask scheduler answers", said[0])
+    assert "the same command with --resume goes on" in said[0]
     assert command(*STUDY, "--jobs", "1", "--out", str(out), "--resume").code == 0
     assert {one.name: one.read_bytes() for one in out.iterdir() if one.suffix != ".png"} == {
         one.name: one.read_bytes() for one in (tmp_path / "whole").iterdir() if one.suffix != ".png"
