@@ -243,7 +243,8 @@ def _by_cluster(function: Callable[..., Result], tasks: Tasks, address: str) -> 
         while True:
             try:
                 room = AHEAD * max(1, sum(client.nthreads().values()))
-                for k in islice(waiting, room - len(numbers)):
+                # Where a worker is gone, more are under way than the others have room for.
+                for k in islice(waiting, max(0, room - len(numbers))):
                     task = tasks[k]
                     for one in task:
                         if isinstance(one, Once) and id(one) not in sent:

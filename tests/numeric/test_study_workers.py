@@ -16,7 +16,7 @@ import pytest
 
 from faultspace.base import workers as base_workers
 from faultspace.base.errors import InvalidData
-from faultspace.base.tasks import Died
+from faultspace.base.tasks import Died, as_they_come
 from faultspace.numeric.study.cases import Case, Numbered, one_by_one, published_case
 from faultspace.numeric.study.groups import Plan
 from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, Study, monte_carlo
@@ -87,6 +87,15 @@ def test_a_worker_of_a_cluster_that_is_killed_is_replaced_and_a_lost_scheduler_i
         for process in (scheduler, worker):
             process.kill()
             process.wait()
+
+
+def test_a_worker_that_is_gone_while_much_is_under_way_is_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    distributed = pytest.importorskip("distributed")
+    threads = iter([{"many": 4}])
+    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None) as cluster:
+        monkeypatch.setattr(distributed.Client, "nthreads", lambda self: next(threads, {"few": 1}))
+        found = dict(as_they_come(squared, [(k,) for k in range(30)], count=1, cluster=cluster.scheduler_address))
+    assert found == {k: k * k for k in range(30)}
 
 
 def test_without_a_scheduler_there_one_line_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
