@@ -40,7 +40,7 @@ from .remainder import TEST_BANDS, as_signals, groups, remainder
 ComplexArray = NDArray[np.complex128]
 
 # Samples up to which the bands of the test of sphericity do. Of more samples the bands are narrower as well as fuller: their number grows
-# with the root. Set by hand: where the bands of the test were calibrated.
+# with the root. It is where the bands of the test were calibrated; half or twice as many do no better (`degree_misfits.py --short`).
 SHORT = 1000
 TINY = float(np.finfo(float).tiny)
 
