@@ -27,6 +27,7 @@ from ..trust import checker, checker_structure
 from ..trust.kernel_witnesses import kernel_witness
 from .export_fields import FIELD_KINDS, finite_zeros, infinite_zeros
 from .export_limits import LIMIT_KINDS, schur_stable
+from .export_lines import left_invertible_line
 from .listed import Integers, Listed, NotCovered, added, independent, times, unit
 from .terms import Terms, index, indices, window_of
 from .text import call, natural, naturals, pivoted, sequence, table, vector, whole
@@ -38,7 +39,7 @@ MODULES = (
     "Vocabulary", "CertificatesVocabulary", "Lists", "ListedSystems", "CheckRows", "CheckRanks", "CheckBehaviors", "Solutions",
     "CheckSolutions", "CheckInversion", "Stacks", "Excitation", "TableRank", "CheckMatrices", "NumbersVocabulary", "FieldArithmetic",
     "FieldBehaviors", "FieldSolutions", "FieldInversion", "FieldMatrices", "FieldZeros", "FieldInfiniteZeros",
-    "ExperimentsVocabulary", "Stability", "FieldLimits", "FieldInputs",
+    "FieldLines", "ExperimentsVocabulary", "Stability", "FieldLimits", "FieldInputs",
 )  # fmt: skip
 HEAD = f"""From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
@@ -331,9 +332,10 @@ COVERED: dict[str, Callable[[Json, Json], Terms]] = {
     "matrix-rank": _matrix_rank,
     "finite-zeros": finite_zeros,
     "infinite-zeros": infinite_zeros,
+    "left-invertible-line": left_invertible_line,
     **LIMIT_KINDS,
 }
-OVER_FIELDS = {**FIELD_KINDS, "schur-stable": schur_stable}
+OVER_FIELDS = {**FIELD_KINDS, "schur-stable": schur_stable, "left-invertible-line": left_invertible_line}
 
 
 # -- parts -------------------------------------------------------------------------------------------------------------

@@ -3,6 +3,8 @@
     FIELD_KINDS     kind -> what writes it
     finite_zeros    writes finite zeros, over Q too
     infinite_zeros  writes infinite zeros, over Q too
+    system_of       a system of a statement, once the checker has looked at the prime; named: it as a definition
+    terms_over      the terms of a statement over every field in which the numbers mean something
 
 The theorem about a system over GF(p) is said of every field in which p is zero, that about one over Q(a) of every root of the minimal
 polynomial in every field of characteristic 0: neither needs that p is a prime or that the polynomial is irreducible, which the checker
@@ -27,19 +29,19 @@ Kernel = list[tuple[int, Rows]]
 Definitions = Sequence[tuple[str, str, str]]
 
 
-def _terms(numbers: Numbers, definitions: Definitions, check: str, statement: str, lemma: str) -> Terms:
+def terms_over(numbers: Numbers, definitions: Definitions, check: str, statement: str, lemma: str) -> Terms:
     """Returns the terms of a statement over every field that the numbers mean something in."""
     named = tuple((name, numbers.of(kind), term) for name, kind, term in definitions)
     return Terms((numbers.definition, *named), check, f"{numbers.given} {statement}", numbers.proof.format(lemma=lemma))
 
 
 def _window_ranks(s: Json, w: Json) -> Terms:
-    system = _system(s["system"], w)
+    system = system_of(s["system"], w)
     kernel = _kernel(system, w["kernel"]) if "kernel" in w else _exact_rows(system, w)
     r, etas, ranks = index(s["normal_rank"]), naturals(indices(s["left_minimal_indices"])), naturals(indices(s.get("window_ranks", [])))
-    name, definitions = system.named("system"), [_named("system", system), *_rows(system, kernel, w), _words("ws", system, system.n + 1)]
+    name, definitions = system.named("system"), [named("system", system), *_rows(system, kernel, w), _words("ws", system, system.n + 1)]
     formula = f"(forall s, \\rank (window {name} s) = s * {natural(r)} + \\sum_(eta <- {etas}) minn s eta)%N"
-    return _terms(
+    return terms_over(
         system.numbers, definitions,
         call("has_window_ranks", *system.sizes, r, etas, ranks, "system rows Q ws"),
         f"{formula} /\\ [seq \\rank (window {name} s) | s <- iota 1 {natural(len(s.get('window_ranks', [])))}] = {ranks}",
@@ -57,11 +59,11 @@ def _exact_rows(system: Numbered, w: Json) -> Kernel:
 
 
 def _left_invertible(s: Json, w: Json) -> Terms:
-    system = _system(s["system"], w)
+    system = system_of(s["system"], w)
     if "point" in w:
         checker.require(system.read.pencil_rank(w) >= system.n + system.m, "the pencil has a smaller rank at that point")
-    return _terms(
-        system.numbers, [_named("system", system), _words("ws", system, system.n + 1)],
+    return terms_over(
+        system.numbers, [named("system", system), _words("ws", system, system.n + 1)],
         call("is_left_invertible", *system.sizes, "system ws"),
         f"left_invertible {system.named('system')}",
         "is_left_invertible_sound",
@@ -69,10 +71,10 @@ def _left_invertible(s: Json, w: Json) -> Terms:
 
 
 def _not_left_invertible(s: Json, w: Json) -> Terms:
-    system = _system(s["system"], w)
+    system = system_of(s["system"], w)
     xs, vs = (system.numbers.vectors(w[key][::-1], width) for key, width in (("state", system.n), ("fault", system.m)))
-    definitions = [_named("system", system), _table(system, "xs", [*xs, system.numbers.unit(system.n, -1)]), _table(system, "vs", vs)]
-    return _terms(
+    definitions = [named("system", system), _table(system, "xs", [*xs, system.numbers.unit(system.n, -1)]), _table(system, "vs", vs)]
+    return terms_over(
         system.numbers, definitions,
         call("is_not_left_invertible", *system.sizes, "system xs vs"),
         f"~ left_invertible {system.named('system')}",
@@ -81,10 +83,10 @@ def _not_left_invertible(s: Json, w: Json) -> Terms:
 
 
 def _inclusion(s: Json, w: Json) -> Terms:
-    inner, outer = _system(s["inner"], w), _system(s["outer"], w)
+    inner, outer = system_of(s["inner"], w), system_of(s["outer"], w)
     a, b, kernel = inner.named("inner"), outer.named("outer"), _kernel(outer, w["kernel"])
-    definitions = [_named("inner", inner), _named("outer", outer), *_rows(outer, kernel, w), _words("ws", outer, outer.n + 1)]
-    return _terms(
+    definitions = [named("inner", inner), named("outer", outer), *_rows(outer, kernel, w), _words("ws", outer, outer.n + 1)]
+    return terms_over(
         outer.numbers, definitions,
         call("is_included", inner.n, inner.m, *outer.sizes, "inner outer rows Q ws"),
         f"(forall s r, word {a} s r -> word {b} s r) /\\ (forall r, behavior {a} r -> behavior {b} r)",
@@ -93,7 +95,7 @@ def _inclusion(s: Json, w: Json) -> Terms:
 
 
 def _equality(s: Json, w: Json) -> Terms:
-    first, second = _system(s["first"], w), _system(s["second"], w)
+    first, second = system_of(s["first"], w), system_of(s["second"], w)
     a, b, kernel, window = first.named("first"), second.named("second"), _kernel(first, w["kernel"]), None
     if "window" in s:
         window = window_of(s["window"])
@@ -104,17 +106,17 @@ def _equality(s: Json, w: Json) -> Terms:
         statement = f"(forall s r, word {a} s r <-> word {b} s r) /\\ (forall r, behavior {a} r <-> behavior {b} r)"
         _hinted(second, w)
     words = [_words(ws, one, one.n + 1 if window is None else window) for ws, one in (("ws", first), ("ws'", second))]
-    definitions = [_named("first", first), _named("second", second), *_rows(first, kernel, w), *words]
+    definitions = [named("first", first), named("second", second), *_rows(first, kernel, w), *words]
     check = call(name, first.n, first.m, *second.sizes, *at, "first second rows Q ws ws'")
-    return _terms(first.numbers, definitions, check, statement, sound)
+    return terms_over(first.numbers, definitions, check, statement, sound)
 
 
 def _difference(s: Json, w: Json) -> Terms:
-    first, second, window = _system(s["first"], w), _system(s["second"], w), window_of(s["window"])
+    first, second, window = system_of(s["first"], w), system_of(s["second"], w), window_of(s["window"])
     (x,), vs = first.numbers.vectors([w["x0"]], first.n), first.numbers.vectors(w["v"], first.m)
     row = first.numbers.vectors(w["row"], first.p)
-    definitions = [_named("first", first), _named("second", second), ("x", "seq V", first.numbers.vector(x))]
-    return _terms(
+    definitions = [named("first", first), named("second", second), ("x", "seq V", first.numbers.vector(x))]
+    return terms_over(
         first.numbers, [*definitions, _table(first, "vs", vs), _table(first, "c", row)],
         call("differ", first.n, first.m, *second.sizes, window, "first second x vs c"),
         f"exists2 r, word {first.named('first')} {natural(window)} r & ~ word {second.named('second')} {natural(window)} r",
@@ -123,7 +125,7 @@ def _difference(s: Json, w: Json) -> Terms:
 
 
 def _fault_space(s: Json, w: Json) -> Terms:
-    system, window = _system(s["system"], w), None if s["window"] is None else window_of(s["window"])
+    system, window = system_of(s["system"], w), None if s["window"] is None else window_of(s["window"])
     numbers, width = system.numbers, system.n + system.p
     kernel = _kernel(system, w["kernel"])
     counted = _counted(kernel, w, window)
@@ -135,10 +137,10 @@ def _fault_space(s: Json, w: Json) -> Terms:
     at, shape = "s" if window is None else natural(window), f"{natural(len(basis))} {natural(width)}"
     space = f"spans_solutions {system.named('system')} {at} (matrix_of value {shape} basis)"
     words = _words("ws", system, system.n + 1 if window is None else window)
-    return _terms(
+    return terms_over(
         numbers,
         [
-            _named("system", system), *_rows(system, kernel, w, window), words, _table(system, "basis", basis),
+            named("system", system), *_rows(system, kernel, w, window), words, _table(system, "basis", basis),
             ("combinations", "seq (nat * seq V)", found),
         ],
         call(check, *system.sizes, beyond, "system rows Q ws basis", naturals(pivots), "combinations"),
@@ -148,13 +150,13 @@ def _fault_space(s: Json, w: Json) -> Terms:
 
 
 def _first_column_only(s: Json, w: Json) -> Terms:
-    system, window = _system(s["system"], w), window_of(s["window"])
+    system, window = system_of(s["system"], w), window_of(s["window"])
     (z,) = system.numbers.vectors([s["column"]], system.n + system.p)
     kernel = _kernel(system, w["kernel"])
     name, f, g = system.named("system"), f"(vector_of value {natural(system.n)} first)", f"(vector_of value {natural(system.p)} rest)"
     parts = [(part, "seq V", system.numbers.vector(values)) for part, values in (("first", z[: system.n]), ("rest", z[system.n :]))]
-    return _terms(
-        system.numbers, [_named("system", system), *_rows(system, kernel, w, window), _words("ws", system, window), *parts],
+    return terms_over(
+        system.numbers, [named("system", system), *_rows(system, kernel, w, window), _words("ws", system, window), *parts],
         call("first_column_alone", *system.sizes, window, "system rows Q ws first rest"),
         f"word {name} {natural(window)} (output (with_faults {name} {f} {g}) 0 (impulse _)) /\\ ~ solves {name} {natural(window)} {f} {g}",
         "first_column_alone_sound",
@@ -162,19 +164,19 @@ def _first_column_only(s: Json, w: Json) -> Terms:
 
 
 def _inversion_delay(s: Json, w: Json) -> Terms:
-    system, delay = _system(s["system"], w), None if s["delay"] is None else index(s["delay"], checker.MAX_DIMENSION)
+    system, delay = system_of(s["system"], w), None if s["delay"] is None else index(s["delay"], checker.MAX_DIMENSION)
     known, numbers = {"known": "true", "unknown": "false"}[s["initial_state"]], system.numbers
     name, x, vs = system.named("system"), Row(), Rows()
     if delay != 0:
         (x,), vs = numbers.vectors([w["word"]["x0"]], system.n), numbers.vectors(w["word"]["v"], system.m)
-    definitions = [_named("system", system), ("x", "seq V", numbers.vector(x)), _table(system, "vs", vs)]
+    definitions = [named("system", system), ("x", "seq V", numbers.vector(x)), _table(system, "vs", vs)]
     if delay is None:
         statement = f"forall j, (j <= {natural(system.n)})%N -> ~ determines {name} {known} j"
-        return _terms(numbers, definitions, call("has_no_delay", *system.sizes, known, "system x vs"), statement, "has_no_delay_sound")
+        return terms_over(numbers, definitions, call("has_no_delay", *system.sizes, known, "system x vs"), statement, "has_no_delay_sound")
     p, least = system.p, natural(delay)
     inverse = numbers.vectors(w["inverse"] or [[]] * system.m, p * (delay + 1))
     rows = [[row[k * p : (k + 1) * p] for k in range(delay + 1)] for row in inverse]
-    return _terms(
+    return terms_over(
         numbers, [*definitions, ("rows", "seq (seq (seq V))", sequence(map(numbers.table, rows)))],
         call("has_delay", *system.sizes, known, delay, "system rows x vs"),
         f"[/\\ ({least} <= {natural(system.n)})%N, determines {name} {known} {least} & "
@@ -184,7 +186,7 @@ def _inversion_delay(s: Json, w: Json) -> Terms:
 
 
 def _matrix_rank(s: Json, w: Json) -> Terms:
-    system, r, name = _system(s["system"], w), index(s["rank"]), s["matrix"]
+    system, r, name = system_of(s["system"], w), index(s["rank"]), s["matrix"]
     checker.expect(type(name) is str and name in checker_structure.MATRICES, "matrix: unknown name")
     numbers, (n, m, p), meant = system.numbers, system.sizes, system.named("system")
     samples, given, sizes, data = window_of(s["window"]) if "window" in s else n, list[tuple[str, str, str]](), [n, m, p], ""
@@ -218,8 +220,8 @@ def _matrix_rank(s: Json, w: Json) -> Terms:
     stem = {"residual-hankel": "hankel"}.get(name, name)
     found = numbers.pivoted(independent(numbers, rows, width))
     pivoted = [("nulls", "seq (nat * seq V)", numbers.pivoted(nulls)), ("combinations", "seq (nat * seq V)", found)]
-    return _terms(
-        numbers, [_named("system", system), *given, *pivoted],
+    return terms_over(
+        numbers, [named("system", system), *given, *pivoted],
         call(f"{stem}_has_rank", *sizes, r, "system", data, "nulls combinations"),
         f"\\rank ({matrix}) = {natural(r)}%N",
         f"{stem}_rank",
@@ -228,7 +230,7 @@ def _matrix_rank(s: Json, w: Json) -> Terms:
 
 def finite_zeros(s: Json, w: Json) -> Terms:
     """Writes finite-zeros, over Q too: Q is Q(a) where a is the root 0 of q."""
-    system, r = _system(s["system"], w), index(s["normal_rank"])
+    system, r = system_of(s["system"], w), index(s["normal_rank"])
     numbers, name, sizes = system.numbers, system.named("system"), (system.n + system.p, system.n + system.m)
     g = _polynomial(numbers, s["invariant_zero_polynomial"])
     diagonal = _diagonal(numbers, w, sizes)
@@ -238,10 +240,10 @@ def finite_zeros(s: Json, w: Json) -> Terms:
         product = _convolved(numbers, product, f) if any(x != 0 for x in f) else product
     leading = next((x for x in reversed(product) if x != 0), product[0])
     minors = f"gcd_of_minors_of_order ({natural(system.n)} + {natural(r)}) (pencil {name}) (polynomial_of value g)"
-    return _terms(
+    return terms_over(
         numbers,
         [
-            _named("system", system), ("g", "seq V", numbers.vector(g)), ("c", "V", numbers.number(leading)),
+            named("system", system), ("g", "seq V", numbers.vector(g)), ("c", "V", numbers.number(leading)),
             _table(system, "d", diagonal), *tables,
         ],
         call("has_finite_zeros", *system.sizes, r, "system g c d U U' V V'"),
@@ -258,7 +260,7 @@ def infinite_zeros(s: Json, w: Json) -> Terms:
     between the columns without t; so the other has the form D with all other entries over t, by the same U, and V with the rows of
     outputs times t and all other columns over t, for which V need only be divisible as it has to be.
     """
-    system, orders = _system(s["system"], w), indices(s["infinite_zero_orders"])
+    system, orders = system_of(s["system"], w), indices(s["infinite_zero_orders"])
     numbers, name, sizes = system.numbers, system.named("system"), (system.n + system.p, system.n + system.m)
     diagonal, multipliers = _diagonal(numbers, w, sizes), _multipliers(numbers, w, sizes)
     later = [not (j < len(diagonal) and diagonal[j] and diagonal[j][0] != 0) for j in range(sizes[0])]
@@ -267,10 +269,10 @@ def infinite_zeros(s: Json, w: Json) -> Terms:
     reduced = [f[1:] if late else f for f, late in zip(diagonal, later, strict=False)]
     r, written = natural(len(orders)), naturals(orders)
     minors = f"divides_minors_of_order ({natural(system.n)} + j) (pencil_at_infinity {name}) 'X^e"
-    return _terms(
+    return terms_over(
         numbers,
         [
-            _named("system", system), _table(system, "d", reduced),
+            named("system", system), _table(system, "d", reduced),
             *(_polynomial_table(numbers, part, rows) for part, rows in multipliers.items()),
         ],
         call("has_infinite_zeros", *system.sizes, written, "system d U U' V V'"),
@@ -299,7 +301,7 @@ FIELD_KINDS: dict[str, Callable[[Json, Json], Terms]] = {
 # -- parts -------------------------------------------------------------------------------------------------------------
 
 
-def _system(data: Json, w: Json) -> Numbered:
+def system_of(data: Json, w: Json) -> Numbered:
     """Returns a system of the statement. Raises what the checker says of the prime, its root, and of why the polynomial is irreducible."""
     system = Numbered(data)
     system.read.field.irreducible(w)
@@ -350,7 +352,7 @@ def _conditions(system: Numbered, kernel: Kernel) -> Rows:
     return [condition for _, row in kernel for condition in system.conditions(row)]
 
 
-def _named(name: str, system: Numbered) -> tuple[str, str, str]:
+def named(name: str, system: Numbered) -> tuple[str, str, str]:
     return name, f"listing ({system.numbers.name})", system.term
 
 

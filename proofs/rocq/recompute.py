@@ -18,7 +18,9 @@ Covered, over the rational numbers (kind: theorem, in the file), and over GF(p) 
     finite-zeros: has_finite_zeros_sound; infinite-zeros: has_infinite_zeros_sound   FieldZeros.v, FieldInfiniteZeros.v
     schur-stable: system_stable, not over GF(p); moesp-limit: is_limit_sound, over Q   Stability.v, FieldLimits.v
     input-limit, over Q: is_regression_sound, is_output_error_sound                     FieldInputs.v
-Not covered: left-invertible-line. Of window-ranks with "nulling" exact rows are recomputed, which are found anew.
+    left-invertible-line: is_left_invertible_line_sound                                 FieldLines.v
+Not covered are fields that there are not, with a reducible polynomial. Of window-ranks with "nulling" exact rows are recomputed, which are
+found anew.
 
 Measured: window-ranks with hints of a dense system with n = 20, m = 2, p = 3 takes Rocq three seconds of processor time, n = 40 six. One
 of these goes into loading the theory, another one into asking what the theorem rests on. What takes longer than SECONDS is left undecided.

@@ -34,8 +34,8 @@ KEPT = resources.files("faultspace.proofs").joinpath("certificates").iterdir()
 SHIPPED = [json.loads(one.read_text("utf-8")) for one in KEPT if re.fullmatch(r".+-.+\.json", one.name)]
 EVERY = 307  # mutation is tried
 ONLY_RATIONAL = "of experiments over Q alone"
-LINE = next(c for c in SHIPPED if c["kind"] == "left-invertible-line")
 FALSE = spoiled(RANKS, ("statement.normal_rank", 2))
+REDUCIBLE = spoiled(ROOTED, (f"{S}.field.minimal_polynomial", ["-1", "0", "1"]), ("witness.irreducible", GONE), ("witness.root", 1))
 
 
 def covered(certificate: dict[str, Any]) -> bool:
@@ -197,17 +197,18 @@ def test_a_pivot_that_carries_source_is_refused(tmp_path: Path) -> None:
         assert list(tmp_path.iterdir()) == []
 
 
-def test_other_kinds_are_not_covered() -> None:
-    with pytest.raises(NotCovered):
-        exported(LINE)
+def test_every_kind_is_covered_and_another_is_not() -> None:
+    assert COVERED.keys() == checker.KINDS.keys()
+    with pytest.raises(NotCovered, match="do not speak of the kind"):
+        translated({**RANKS, "kind": "another"})
 
 
 def test_a_reducible_polynomial_is_not_covered() -> None:
-    reducible = spoiled(ROOTED, (f"{S}.field.minimal_polynomial", ["-1", "0", "1"]), ("witness.irreducible", GONE))
-    with pytest.raises((NotCovered, checker.Rejected)):
-        exported(reducible)
+    checker.verify(REDUCIBLE)
     with pytest.raises(NotCovered, match="reducible"):
-        numbers_of(checker.subject(reducible["statement"]["system"]).field)
+        exported(REDUCIBLE)
+    with pytest.raises(NotCovered, match="reducible"):
+        numbers_of(checker.subject(REDUCIBLE["statement"]["system"]).field)
 
 
 def test_the_format_tells_what_is_covered_and_by_which_theorem() -> None:
@@ -232,7 +233,7 @@ def test_what_is_no_prime_is_rejected_before() -> None:
 @needs_rocq
 def test_the_command_tells_what_rocq_says(tmp_path: Path) -> None:
     files = []
-    for name, certificate in {"true": RANKS, "false": FALSE, "line": LINE}.items():
+    for name, certificate in {"true": RANKS, "false": FALSE, "reducible": REDUCIBLE}.items():
         files.append(str(tmp_path / f"{name}.json"))
         Path(files[-1]).write_text(json.dumps(certificate), "utf-8")
     run = call("check", "--rocq", files[0])

@@ -193,6 +193,7 @@ CHANGES: dict[str, tuple[str, str]] = {
     "field_excitation": (" N s) = r", " N.+1 s) = r"),
     "field_finite_zeros": ("\\rank (transfer S) = r", "\\rank (transfer S) = r.+1"),
     "field_infinite_zeros": ("(take j orders)", "(take j.+1 orders)"),
+    "field_left_invertible_line": ("(a != 0) || (b != 0)", "true"),
     "field_schur_stable": ("means value -> ", ""),
     "field_moesp_limit": ("\\rank (col_mx L seen) = rj", "\\rank (col_mx L seen) = rl"),
     "field_input_limit_moesp": (

@@ -5,7 +5,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary CertificatesVocabulary NumbersVocabulary.
-From faultspace Require FieldArithmetic FieldBehaviors FieldSolutions FieldInversion FieldMatrices FieldZeros FieldInfiniteZeros.
+From faultspace Require FieldArithmetic FieldBehaviors FieldSolutions FieldInversion FieldMatrices FieldZeros FieldInfiniteZeros FieldLines.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -143,3 +143,11 @@ Theorem field_infinite_zeros (R : arithmetic) (K : fieldType) (value : numeral R
   forall j e, (j <= size orders)%N -> divides_minors_of_order (n + j) (pencil_at_infinity S) 'X^e <-> (e <= sumn (take j orders))%N.
 Proof. move=> meaning; exact: (FieldInfiniteZeros.has_infinite_zeros_sound meaning). Qed.
 Print Assumptions field_infinite_zeros.
+
+(** A line of faults: left-invertible with a F + b F' and a G + b G' for every (a : b) other than (0, 0), a and b in any field in which the
+    numbers mean something, so over every extension of the one that they are from *)
+Theorem field_left_invertible_line (R : arithmetic) (K : fieldType) (value : numeral R -> K) n m p L L' points others : means value ->
+  is_left_invertible_line n m p L L' points others -> let S := system_of value n m p L in let S' := system_of value n m p L' in
+  forall a b : K, (a != 0) || (b != 0) -> left_invertible (with_faults S (a *: sysF S + b *: sysF S') (a *: sysG S + b *: sysG S')).
+Proof. move=> meaning; exact: (FieldLines.is_left_invertible_line_sound meaning). Qed.
+Print Assumptions field_left_invertible_line.

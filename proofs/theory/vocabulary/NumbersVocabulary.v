@@ -328,3 +328,39 @@ Definition has_infinite_zeros n m p (orders : seq nat) (L : listing R) (d : seq 
     all (fun i => invertible (at_place (nth [::] d i) (valuation (nth [::] d i)))) places
     & sort leq [seq valuation (nth [::] d i) | i <- places] == nseq n 0%N ++ orders].
 End PolynomialChecks.
+
+(** ** The check of lines of faults *)
+
+Section LineChecks.
+Variable R : arithmetic.
+
+(** [c - A, C] at a point c; [-(F + t F'), G + t G'] as polynomials in t; numbers as polynomials. *)
+Definition states_at n p (L : listing R) (c : numeral R) : seq (seq (numeral R)) :=
+  [seq mkseq (fun j => minus (if j == i then c else zero R) (at_place (nth [::] (tA L) i) j)) n
+    ++ mkseq (at_place (nth [::] (tC L) i)) p | i <- iota 0 n].
+Definition faults_along n m p (L L' : listing R) : seq (seq (seq (numeral R))) :=
+  [seq mkseq (fun j => [:: minus (zero R) (at_place (nth [::] (tF L) i) j); minus (zero R) (at_place (nth [::] (tF L') i) j)]) n
+    ++ mkseq (fun j => [:: at_place (nth [::] (tG L) i) j; at_place (nth [::] (tG L') i) j]) p | i <- iota 0 m].
+Definition constants (T : seq (seq (numeral R))) : seq (seq (seq (numeral R))) := [seq [seq [:: x] | x <- r] | r <- T].
+
+(** What is told at a point c: W and Y with [c - A, C] W = 1 and [c - A, C] Y = 0, and polynomials Z and e in t with
+    [-(F + t F'), G + t G'] Y Z = e. Where e is not zero the rows of the pencil at c are independent. *)
+Record line_point := LinePoint { point : numeral R; undoing : seq (seq (numeral R)); unseen_by_states : seq (seq (numeral R));
+  adjoint : seq (seq (seq (numeral R))); determinant_part : seq (numeral R) }.
+Definition shown_at n m p (L L' : listing R) (x : line_point) : bool :=
+  let N := states_at n p L (point x) in let P := polynomials R in
+  [&& size (undoing x) == (n + p)%N, size (unseen_by_states x) == (n + p)%N & size (adjoint x) == m]
+  && [&& equal_tables n n (table_product N (undoing x)) [seq unit_row R n i | i <- iota 0 n],
+      equal_tables n m (table_product N (unseen_by_states x)) [::]
+    & @equal_tables P m m (@table_product P (@table_product P (faults_along n m p L L') (constants (unseen_by_states x))) (adjoint x))
+      (diagonal_table m m (nseq m (determinant_part x)))].
+
+(** The faults F + t F', G + t G' for every t, because the parts e of all points have the sum 1; and F', G', because a part for F' + t F,
+    G' + t G is not zero at t = 0. *)
+Definition is_left_invertible_line n m p (L L' : listing R) (points others : seq line_point) : bool :=
+  [&& sized n m p L, sized n m p L', tA L == tA L' & tC L == tC L']
+  && ((m == 0%N) || [&& all (shown_at n m p L L') points,
+    @is_one (polynomials R) (foldr (@sum R) [::] [seq determinant_part x | x <- points])
+    & has (fun x => shown_at n m p L' L x && invertible (at_place (determinant_part x) 0)) others]).
+
+End LineChecks.
