@@ -65,8 +65,18 @@ FOLLOWS = [
         ("rank(G) == 0", "left_invertible"),
         ("zero_feedthrough", "zeros_exist"),
     ),
+    ("delay_unknown <= rank(hstack(A, F))", ("delay_unknown < inf",), ("delay_by_the_range", "delay_any_state_longer")),
+    ("n + m >= delay_unknown + rank(C)", ("delay_unknown < inf",), ("delay_by_outputs", "delay_any_state_longer")),
+    (
+        "delay_known >= controllability_index + infinite_zeros - n",
+        ("left_invertible",),
+        ("delay_by_controllability", "left_invertible_delay", "zeros_exist"),
+    ),
 ]
 ONLY_LOOKS_SO = [
+    ("delay_unknown <= rank(hstack(A, F)) - 1", ("delay_unknown < inf",)),
+    ("delay_unknown <= n + m - rank(C) - 1", ("delay_unknown < inf",)),
+    ("delay_known > controllability_index + infinite_zeros + uncontrollable_dimension - n", ("left_invertible",)),
     ("lag <= n - 1", ()),
     ("lag < n", ()),
     ("all(gap(s) == m for s in windows(n - 1))", ("left_invertible",)),

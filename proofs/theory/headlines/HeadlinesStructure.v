@@ -4,7 +4,7 @@
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary StructureVocabulary.
 From faultspace Require KernelRepresentation ChangeOfState ExtremalSubspaces UnobservableZeros ZeroFeedthroughSignal SharpPartner.
-From faultspace Require ZeroAssignmentPairs Delay.
+From faultspace Require ZeroAssignmentPairs Delay InputDelay DelaySharp ControlDelay.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -95,6 +95,38 @@ Theorem infinite_zeros_by_ranks (K : fieldType) n m p (S : system K n m p) d s :
   left_invertible S -> infinite_zeros S d -> (n <= s)%N -> (\rank (T S s) + d)%N = (s * m)%N.
 Proof. exact: Delay.infinite_zeros_by_ranks. Qed.
 Print Assumptions infinite_zeros_by_ranks.
+
+(** state-known, from below: c + d <= l + rank [F, AF, ..., A^(n-1) F], c the controllability index and d the number of infinite zeros *)
+Theorem delay_by_controllability (K : fieldType) n m p (S : system K n m p) l d :
+  inverts_with_delay S l -> infinite_zeros S d -> (controllability_index S + d <= l + \rank (reachability S))%N.
+Proof. exact: ControlDelay.delay_by_controllability. Qed.
+Print Assumptions delay_by_controllability.
+
+(** state-unknown: some delay serves exactly when the output determines the faults; every longer one serves, too; and so do these two,
+    the rank of [A F] and m + n - rank C *)
+Theorem delay_any_state_exists (K : fieldType) n m p (S : system K n m p) :
+  (forall x y v w, (forall k, output S x v k = output S y w k) -> forall k, v k = w k) <-> exists l, inverts_from_any_state S l.
+Proof. exact: InputDelay.tells_some. Qed.
+Print Assumptions delay_any_state_exists.
+Theorem delay_any_state_longer (K : fieldType) n m p (S : system K n m p) l k :
+  (l <= k)%N -> inverts_from_any_state S l -> inverts_from_any_state S k.
+Proof. exact: InputDelay.tells_longer. Qed.
+Print Assumptions delay_any_state_longer.
+Theorem delay_by_the_range (K : fieldType) n m p (S : system K n m p) :
+  (exists l, inverts_from_any_state S l) -> inverts_from_any_state S (\rank (col_mx (sysA S) (sysF S))).
+Proof. exact: InputDelay.delay_within_range. Qed.
+Print Assumptions delay_by_the_range.
+Theorem delay_by_outputs (K : fieldType) n m p (S : system K n m p) :
+  (exists l, inverts_from_any_state S l) -> inverts_from_any_state S (m + n - \rank (sysC S)).
+Proof. exact: InputDelay.delay_within_outputs. Qed.
+Print Assumptions delay_by_outputs.
+
+(** Both are n + 1 for some system of n + 1 states, for which n is too little. *)
+Theorem delay_bounds_attained (K : fieldType) n : exists S : system K n.+1 1 1,
+  [/\ \rank (col_mx (sysA S) (sysF S)) = n.+1, (1 + n.+1 - \rank (sysC S))%N = n.+1, inverts_from_any_state S n.+1
+    & ~ inverts_from_any_state S n].
+Proof. exact: DelaySharp.delay_bounds_attained. Qed.
+Print Assumptions delay_bounds_attained.
 
 (** zero-feedthrough-signal: all equivalent pairs (F', 0) of m faults tell the same v, up to one basis for each pair, just when C F has
     rank m and the finite zeros, with multiplicities, are the unobservable modes. *)

@@ -12,6 +12,9 @@ Definition shifted (K : fieldType) p c (N : 'M[{poly K}]_(p, c)) (r : nat -> 'rV
 Section Subspaces.
 Variables (K : fieldType) (n m p : nat) (S : system K n m p).
 
+(** From any state, l + 1 samples of zero output say that v(0) = 0: without the state, the faults are known from delay l on. *)
+Definition inverts_from_any_state l := forall x v, (forall k, (k <= l)%N -> output S x v k = 0) -> v 0%N = 0.
+
 (** From every state in X some fault gives zero output and leads into X. *)
 Definition output_nulling k (X : 'M[K]_(k, n)) := forall x, (x <= X)%MS ->
   exists v : 'rV_m, x *m sysC S + v *m sysG S = 0 /\ ((x *m sysA S + v *m sysF S)%R <= X)%MS.
@@ -29,6 +32,12 @@ Definition smallest_input_containing k (W : 'M[K]_(k, n)) :=
 (** The rows of N are a basis of the states that give no output; M moves them. *)
 Definition unobservable_dynamics d (N : 'M[K]_(d, n)) (M : 'M[K]_d) :=
   [/\ row_free N, (N :=: kermx (O S n))%MS & N *m sysA S = M *m N].
+
+(** [F, AF, ..., A^(k-1) F] of the paper, n x k m: its columns span the states that faults lead to from rest in k samples. *)
+Definition reachability_of k : 'M[K]_(n, k * m) := stack k (fun j => (iter j (mulmxr (sysA S)) (sysF S))^T).
+(** The least number of samples in which faults lead to all states that they lead to in n samples, and so in any number. *)
+Definition controllability_index :=
+  ex_minn (ex_intro (fun k => \rank (reachability_of k) == \rank (reachability_of n)) n (eqxx (\rank (reachability_of n)))).
 
 Variables (L : fieldType) (f : {rmorphism K -> L}) (z : L).
 
