@@ -16,16 +16,16 @@ are tried again one after another, which shows it, and then the others go on in 
 
 from __future__ import annotations
 
+import time
 import warnings
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import CancelledError
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, nullcontext, suppress
 from contextvars import ContextVar
 from dataclasses import dataclass
 from importlib import import_module
-from itertools import islice
 from typing import Any, Protocol, TypeVar
 
 import joblib
@@ -39,6 +39,8 @@ Task = tuple[Any, ...]
 TRIES = 2
 # Tasks that each thread of a cluster has before it, so that none of them waits for us.
 AHEAD = 4
+# Seconds of work that are one task of a cluster, whose messages cost more than a hundredth of one, and the most tasks of ours in it.
+WORTH, MOST_TOGETHER = 0.5, 100
 # What a client raises that has no scheduler any more; the last where somebody else answers at the address, as a gate to other networks
 # does: eight of its letters, read as a length, are more bytes than there are.
 GONE = (OSError, CancelledError, RuntimeError, AttributeError, MemoryError)
@@ -233,38 +235,62 @@ def _itself(value: Any) -> Any:
     return value
 
 
+def _several(function: Callable[..., Result], tasks: Sequence[Task]) -> tuple[list[Result], float]:
+    """Return the results, and the seconds that each of them took."""
+    begun = time.perf_counter()
+    return [function(*task) for task in tasks], (time.perf_counter() - begun) / len(tasks)
+
+
 def _by_cluster(function: Callable[..., Result], tasks: Tasks, address: str) -> Iterator[tuple[int, Result | Died]]:
     there = _SHARED.get()
     with workers.client(address) if there is None or there.address != address else nullcontext(there.client) as client:
         distributed: Any = import_module("distributed")
-        waiting = iter(range(len(tasks)))
-        numbers: dict[Any, int] = {}
+        under_way: dict[Any, list[int]] = {}
+        alone = deque[int]()  # of what was under way where a worker was killed, nobody knows which was at fault: one after another shows it
         sent: dict[int, Any] = {}  # results of a task, which are made again where the worker that has them is lost
+        following, together, single = 0, 1, False
+
+        def submitted(numbers: list[int]) -> Any:
+            given = []
+            for task in map(tasks.__getitem__, numbers):
+                for one in task:
+                    if isinstance(one, Once) and id(one) not in sent:
+                        sent[id(one)] = one, client.submit(_itself, one.value, pure=False)
+                given.append([sent[id(one)][1] if isinstance(one, Once) else one for one in task])
+            return client.submit(_several, function, given, pure=False)
+
         while True:
             try:
                 room = AHEAD * max(1, sum(client.nthreads().values()))
                 # Where a worker is gone, more are under way than the others have room for.
-                for k in islice(waiting, max(0, room - len(numbers))):
-                    task = tasks[k]
-                    for one in task:
-                        if isinstance(one, Once) and id(one) not in sent:
-                            sent[id(one)] = one, client.submit(_itself, one.value, pure=False)
-                    given = [sent[id(one)][1] if isinstance(one, Once) else one for one in task]
-                    numbers[client.submit(function, *given, pure=False)] = k
+                while not alone and len(under_way) < room and following < len(tasks):
+                    numbers = [*range(following, following + min(together, -(-(len(tasks) - following) // room)))]
+                    following = numbers[-1] + 1
+                    under_way[submitted(numbers)] = numbers
+                single = bool(alone) and not under_way
+                if single:
+                    numbers = [alone.popleft()]
+                    under_way[submitted(numbers)] = numbers
             except GONE:
                 raise _lost(address) from None
-            if not numbers:
+            if not under_way:
                 return
-            for future in _done(client, list(numbers), address):
-                k = numbers.pop(future)
+            for future in _done(client, list(under_way), address):
+                numbers = under_way.pop(future)
                 try:
-                    yield k, future.result()
+                    results, seconds = future.result()
                 except distributed.KilledWorker as error:
-                    yield k, Died(" ".join(str(error).split()))
+                    if single:
+                        yield numbers[0], Died(" ".join(str(error).split()))
+                    else:
+                        alone.extend(numbers)
+                    continue
                 except GONE:
                     if future.status == "error":  # the function's own
                         raise
                     raise _lost(address) from None
+                together = max(1, min(MOST_TOGETHER, int(WORTH / max(seconds, 1e-9))))
+                yield from zip(numbers, results, strict=True)
 
 
 def _done(client: Any, futures: list[Any], address: str) -> list[Any]:

@@ -150,6 +150,19 @@ def test_a_task_that_always_kills_its_process_is_given_up_and_the_others_are_don
     assert found == {k: k * k for k in range(12) if k != 2}
 
 
+@pytest.mark.slow
+def test_of_tasks_that_a_cluster_does_together_only_the_one_that_kills_is_given_up(tmp_path: Path) -> None:
+    """Quick tasks go to a worker together; of those that were killed together each is then tried alone."""
+    distributed = pytest.importorskip("distributed")
+    (tmp_path / "once").touch()
+    tasks = [(k, tmp_path / "once") for k in (*range(3, 60), 2, *range(60, 90))]
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
+        found = dict(as_they_come(killed, tasks, count=1, cluster=cluster.scheduler_address))
+    died = found.pop(57)
+    assert isinstance(died, Died)
+    assert found == {number: k * k for number, (k, _) in enumerate(tasks) if k != 2}
+
+
 def kills(numbered: Sequence[Numbered], samples: int) -> list[Case]:
     if any(index == 2 for index, _ in numbered):
         os.kill(os.getpid(), signal.SIGKILL)
