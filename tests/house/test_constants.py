@@ -1,6 +1,7 @@
 """Constants of numeric are judged: each float says what it rests on, and commands that are named exist with their tables and options.
 
-What follows from data that were looked at stands in SET_BY_HAND, by module; whoever calibrates one strikes it out, and none is added.
+What follows from data that were looked at stood in SET_BY_HAND, by module; whoever calibrated one struck it out, and none is added: none is
+left.
 """
 
 from __future__ import annotations
@@ -12,9 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 MODULES = sorted((ROOT / "numeric").rglob("*.py"))
-SET_BY_HAND = {
-    "rows/faint_faults.py",  # the samples from which the bands of a spectrum become narrower
-}
+SET_BY_HAND = set[str]()
 WORDS = re.compile(r"(?:set|revised|settled) (?:by hand|after looking)|rules? of thumb with", re.IGNORECASE)
 COMMAND = re.compile(r"`?(?:python )?(?:benchmarks/)?(\w+\.py)((?: (?:--)?[a-z_]+)?)`")
 
