@@ -60,6 +60,21 @@ def test_every_link_leads_somewhere(page: Path) -> None:
     assert broken == []
 
 
+def sections(page: Path) -> set[str]:
+    """The names of the sections of a page, as links call them."""
+    return {
+        re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
+        for title in re.findall(r"^#+ (.+)$", page.read_text("utf-8"), re.MULTILINE)
+    }
+
+
+@pytest.mark.parametrize("page", [*PAGES, DOCS.parent / "benchmarks" / "README.md"], ids=lambda page: f"{page.parent.name}-{page.name}")
+def test_every_link_to_a_section_finds_it(page: Path) -> None:
+    """A page that has lost its sections is so noticed by those that speak of them."""
+    found = re.findall(r"\]\(([\w./-]*)#([\w-]+)\)", page.read_text("utf-8"))
+    assert [(link, name) for link, name in found if name not in sections(page.parent / link if link else page)] == []
+
+
 def files_named(text: str) -> list[str]:
     """The files and folders of the tree that a page names as code, with a slash in them; patterns and commands are none."""
     return [name for name in re.findall(r"`([\w./-]+)`", text) if "/" in name and not re.search(r"[A-Z]{4}_", name)]
