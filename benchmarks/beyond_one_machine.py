@@ -1,7 +1,8 @@
 """What long records and long studies take: memory and time of one pass over a record, and how a study grows with cores and a cluster.
 
     record      a record of --size bytes is generated into a file, mapped, and identified in one pass, beside a pass that only reads it
-    study       --systems of the study as published and as corrected, by one process, by two, and by a local Dask cluster of two workers
+    study       --systems of the study as published and as corrected, by one process, by two, and by a local Dask cluster of two workers,
+                as Dask starts it and with the settings CALM
 
 `python benchmarks/beyond_one_machine.py record --size 20e9 --folder DIR` needs so much room in DIR, and `study --systems 2000` the extra
 `cluster`. Both print what they measured, a line each. Each measurement is a process of its own; the peak of memory is what the operating
@@ -19,6 +20,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -30,12 +32,15 @@ from faultspace import example_data as made
 from faultspace.base.threads import one_thread
 from faultspace.numeric.model.compression import compress_chunks
 from faultspace.numeric.model.past_inputs import pi_moesp_from_compression
+from faultspace.numeric.study.groups import Plan
 from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, monte_carlo
 
 Array = NDArray[np.float64]
 PIECE = 1 << 16  # samples read at once
 PERIOD = 1 << 20  # samples that are simulated
 ROWS = 10  # block rows
+# By default a scheduler and each worker of Dask look at themselves every 20 ms, and at the stacks of their threads every 10 ms.
+CALM = {"distributed.admin.tick.interval": "1s", "distributed.admin.tick.cycle": "5s", "distributed.worker.profile.enabled": False}
 N_U, P = len(made.INPUTS), len(made.OUTPUTS)
 
 
@@ -131,14 +136,8 @@ def study(systems: int, samples: int, *, cluster: bool) -> None:
                 lambda plan=plan, jobs=jobs: monte_carlo(plan, systems=systems, samples=samples, jobs=jobs)
             )
         if cluster:
-            import distributed
-
-            with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as local:
-                address = local.scheduler_address
-                monte_carlo(plan, systems=8, samples=samples, cluster=address)  # the workers load us
-                clocks["cluster of 2"] = _timed(
-                    lambda plan=plan, at=address: monte_carlo(plan, systems=systems, samples=samples, cluster=at)
-                )
+            clocks["cluster of 2"] = on_cluster(plan, systems, samples, {})
+            clocks["calm cluster of 2"] = on_cluster(plan, systems, samples, CALM)
         for name, clock in clocks.items():
             hours = clock * 1e5 / systems / 3600
             print(
@@ -146,7 +145,35 @@ def study(systems: int, samples: int, *, cluster: bool) -> None:
             )
         print(f"{plan.name}: two processes are {clocks['1 processes'] / clocks['2 processes']:.2f} times as fast as one")
         if cluster:
-            print(f"{plan.name}: the cluster takes {clocks['cluster of 2'] / clocks['2 processes']:.2f} times what two processes take")
+            for name in ("cluster of 2", "calm cluster of 2"):
+                print(f"{plan.name}: the {name} takes {clocks[name] / clocks['2 processes']:.2f} times what two processes take")
+
+
+def on_cluster(plan: Plan, systems: int, samples: int, settings: dict[str, Any]) -> float:
+    """Return the seconds that a local cluster of two workers takes, started with these settings of Dask."""
+    dask: Any = import_module("dask")
+    distributed: Any = import_module("distributed")
+    with (
+        dask.config.set(settings),
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as local,
+    ):
+        address = local.scheduler_address
+        monte_carlo(plan, systems=8, samples=samples, cluster=address)  # the workers load us
+        print(f"a cluster that has nothing to do takes {idle_share():.3f} of a core, with {len(settings) or 'no'} settings of ours")
+        return _timed(lambda: monte_carlo(plan, systems=systems, samples=samples, cluster=address))
+
+
+def idle_share(seconds: float = 10.0) -> float:
+    """Return how much of a core this process and its children take while it sleeps."""
+
+    def used() -> float:
+        me = psutil.Process()
+        return sum(sum(one.cpu_times()[:2]) for one in (me, *me.children(recursive=True)))
+
+    time.sleep(2)  # what has just been done is cleared up
+    before = used()
+    time.sleep(seconds)
+    return (used() - before) / seconds
 
 
 def _timed(work: Callable[[], object]) -> float:

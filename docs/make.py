@@ -1,5 +1,5 @@
 """What docs/ has from the ledger: the table of the claims with their readings, that of the hypotheses, that of the attacks on them, and the
-picture of the README; and the table of the quantities that claims of your own can speak of.
+picture of the README; the way from the paper to the proofs; and the table of the quantities that claims of your own can speak of.
 
     python docs/make.py     writes them anew
     TABLES                  the page -> the function that makes the rows of its table
@@ -18,6 +18,7 @@ from pathlib import Path
 from faultspace.proofs.adversary.results import SWEPT, AttackRecord, stored
 from faultspace.proofs.evidence.attacks import Aim
 from faultspace.proofs.hypotheses import ablations
+from faultspace.proofs.paper_page import lines as paper_to_proof
 from faultspace.proofs.quantities.choices import OF_A_CHOICE
 from faultspace.proofs.quantities.pairs import OF_ONE_A_AND_C
 from faultspace.proofs.quantities.records import OF_A_RECORD
@@ -109,14 +110,15 @@ def nearest(record: AttackRecord) -> str:
 
 def quantities_table() -> list[str]:
     """Return the tables of your-claims.md, a row a quantity: of a system, then of a pair, a choice, a record."""
+    pair = "A claim about a pair has these words, too, beside those of `first` and `second` (`n` where both have the same A and C):"
+    word = "[choice](glossary.md#choice-of-a-pair)"
+    choice = f"A claim about a {word} has these words, too, beside those of the system and of `chosen`, and the matrix `P`:"
+    record = "A claim about a record has these words, too, beside those of the system and of `inputs`, and `B`, `D`, `u` (N x nu) and `x0`:"
     return [
         *_quantities_table(quantities()),
-        *("", "Of a pair, beside those of `first` and `second` (`n` where both have the same A and C):", ""),
-        *_quantities_table(OF_ONE_A_AND_C),
-        *("", "Of a choice, beside those of the system and of `chosen`, and the matrix `P`:", ""),
-        *_quantities_table(OF_A_CHOICE),
-        *("", "Of a record, beside those of the system and of `inputs`, and the matrices `B`, `D`, `u` (N x nu) and `x0`:", ""),
-        *_quantities_table(OF_A_RECORD),
+        *("", pair, "", *_quantities_table(OF_ONE_A_AND_C)),
+        *("", choice, "", *_quantities_table(OF_A_CHOICE)),
+        *("", record, "", *_quantities_table(OF_A_RECORD)),
     ]
 
 
@@ -137,6 +139,7 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "adversary.md": attacks_table,
     "claims.md": claims_table,
     "hypotheses.md": hypotheses_table,
+    "paper-to-proof.md": paper_to_proof,
     "your-claims.md": quantities_table,
 }
 

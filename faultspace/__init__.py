@@ -9,6 +9,7 @@ conjecture                         the sharpest bounds on a quantity of such sys
 identify, read_record              from measured data to model, number of faults, fault space and fault signal; a record from a file
 Monitor                            a model against a stream of samples: alarms at a stated rate of false ones
 monte_carlo, audit                 the paper's study; anyone's implementation against exact ground truth
+report                             the page that a reviewer reads, of a run of verify
 errors                             the errors of bad input
 __version__                        the one place where the version is written; the build reads it from here
 

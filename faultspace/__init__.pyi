@@ -16,5 +16,6 @@ from .proofs.brought.conjecturing import conjecture as conjecture
 from .proofs.checking import check as check
 from .proofs.trust.certifying import certify as certify
 from .proofs.verification import verify as verify
+from .review.reporting import report as report
 
 __version__: str

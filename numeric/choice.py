@@ -62,14 +62,14 @@ def with_space(answer: Findings, on_progress: Progress) -> Findings:
     if not faults or model is None or rest is None:
         return answer
     if answer.news is not None and answer.news < faults:
-        return replace(answer, notes=(*answer.notes, f"no fault space: {FORETOLD}"))
+        return replace(answer, notes=(*answer.notes, f"no fault space is given: {FORETOLD}"))
     if quiet := _quieter(answer):
         lost = (
-            f"no fault space: {named(quiet)} {'has' if len(quiet) == 1 else 'have'} lost variance since the healthy samples, as a sensor "
-            "that is stuck, or whose gain has fallen, does; such a fault is no signal that is added, and a space found of it misleads"
+            f"no fault space is given: {named(quiet)} {'has' if len(quiet) == 1 else 'have'} lost variance since the healthy samples, as "
+            "a sensor that is stuck, or whose gain has fallen, does; such a fault is no signal that is added, and its space misleads"
         )
         return replace(answer, notes=(*answer.notes, lost))
-    on_progress("fault space", 0, 0)
+    on_progress("finding the fault space", 0, 0)
     A, C = model.model.A, model.model.C
     # An exact record gives exact rows, and an exact space where the model is.
     space, notes = None if answer.exact and not isinstance(model, ReducedModel) else _by_laws(answer, faults), answer.notes
@@ -79,7 +79,7 @@ def with_space(answer: Findings, on_progress: Progress) -> Findings:
         try:
             space = fault_space(beyond_rounding(answer), A, C, n_v=faults)
         except InvalidData as error:
-            return replace(answer, notes=(*notes, f"no fault space: {error}"))
+            return replace(answer, notes=(*notes, f"no fault space is given: {error}"))
         if space.method == "likelihood":
             notes += (FROM_IDENTIFIED,)
         if answer.exact and not answer.healthy:
@@ -152,7 +152,7 @@ def _reconstructed(answer: Findings, F: Array, G: Array, on_progress: Progress) 
     try:
         signal = reconstruct_fault(rest.store, model.model.A, F, model.model.C, G, within=answer.held, on_progress=on_progress)
     except InvalidData as error:
-        return replace(answer, notes=(*answer.notes, f"no fault signal: {error}"))
+        return replace(answer, notes=(*answer.notes, f"no fault signal is given: {error}"))
     notes = answer.notes
     explained, by_noise = _shares(answer, signal, count)
     answer = replace(answer, explained=explained, by_noise=by_noise)

@@ -238,10 +238,12 @@ def _against_healthy(answer: Findings, r: Array, faults: int | None, on_progress
         reference = healthy_reference(healthy, before)
         against = fault_dimension_against_healthy(r, reference, u=u)
     except InvalidData as error:
-        answer = replace(answer, notes=(*answer.notes, f"not counted against samples {start} to {until - 1}: {error}"))
+        answer = replace(answer, notes=(*answer.notes, f"faults were not counted against samples {start} to {until - 1}: {error}"))
         return _zero_or_not(unlike_healthy_ranks(answer, healthy, before))
     if driven and against.n_v != 0:
-        return _zero_or_not(replace(answer, notes=(*answer.notes, f"not counted against samples {start} to {until - 1}: {driven}")))
+        return _zero_or_not(
+            replace(answer, notes=(*answer.notes, f"faults were not counted against samples {start} to {until - 1}: {driven}"))
+        )
     strange = unlike_healthy(r, healthy, record.stretch(*answer.held)[0], record.stretch(start, until)[0], record.outputs)
     if strange and against.n_v == 0:
         against = replace(against, n_v=None, reason=f"{against.reason}; but {strange}")

@@ -69,7 +69,7 @@ def plot_conditions(values: ArrayLike, equations: int, *, others: str, ax: Any =
     """
     sigma = _spectrum(values, "values")
     if not len(sigma):
-        raise InvalidData("there is no condition on a fault column, so that there is nothing to draw")
+        raise InvalidData("values: got none, expected one at least: there is no condition on a fault column to draw")
     ax = _axes(ax)
     sigma, count = sigma / sigma[0], np.arange(1, len(sigma) + 1)
     ax.semilogy(count[:equations], sigma[:equations], "o", color=BLUE, markersize=5, label=f"{counted(equations, 'independent condition')}")

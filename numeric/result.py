@@ -158,5 +158,7 @@ class Identification(Findings):
         try:
             path.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise InvalidInput(f"{quote_path(str(path))}: cannot be made ({error.strerror or error})") from None
+            raise InvalidInput(
+                f"{quote_path(str(path))}: cannot be made ({error.strerror or error}), expected a folder to write into"
+            ) from None
         return write(self, path, data, silent)[0]

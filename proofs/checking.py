@@ -20,7 +20,7 @@ from ..base.progress import Progress, silent
 from ..base.sheets import Shown
 from ..exact.limits.experiments import Experiment
 from ..exact.system.systems import System
-from .rocq.build import BrokenTheory, NoRocq
+from .rocq.build import INSTALL, BrokenTheory, NoRocq
 from .rocq.recompute import Recomputed, recomputed
 from .trust import checker
 
@@ -219,7 +219,7 @@ def _recomputed(certificates: Sequence[Any], progress: Progress = silent) -> lis
     except NoRocq as error:
         raise InvalidInput(f"rocq: {error}") from None
     except BrokenTheory as error:
-        raise InvalidInput(f"rocq: this version of Rocq does not compile the theory ({error})") from None
+        raise InvalidInput(f"rocq: this version of Rocq does not compile the theory ({error}); {INSTALL}") from None
 
 
 def _read_again(file: CheckedFile) -> Any:

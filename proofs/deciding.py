@@ -21,7 +21,6 @@ from typing import Any
 
 from ..base.progress import silent
 from ..base.tasks import Once, ordered, processes
-from .brought.readings import decide_reading
 from .evidence.material import Carried, Folder, Material, Shelf, Wanted
 from .hypotheses import ablations
 from .kept_answers import KeptAnswers
@@ -43,6 +42,8 @@ class Check:
         file, _, name = self.name.partition(".")
         try:
             if file == IN_LANGUAGE:
+                from .brought.readings import decide_reading  # here, where it is needed: half of the claims do without the language
+
                 outcome = decide_reading(bench, name)
             else:
                 outcome = getattr(import_module(f".claims.{file}", __package__), name)(bench)

@@ -176,12 +176,13 @@ def _run(waiting: Sequence[Unit], kept: KeptLines, jobs: int, scheduler: str | N
         for number, (k, line) in enumerate(as_they_come(examined, [(unit,) for unit in waiting], count=jobs, cluster=scheduler), 1):
             unit = waiting[k]
             if isinstance(line, Died):
-                raise InvalidData(f"the unit n={unit[0]} p={unit[1]} m={unit[2]} pair {unit[3]} came to no end: {line.reason}")
+                named = f"n={unit[0]} p={unit[1]} m={unit[2]} pair {unit[3]}"
+                raise InvalidData(f"the unit {named} came to no end: {line.reason}; try fewer processes at a time, or more memory")
             kept.note(**line)
             yield unit, line
             done += shares[k]
             left = (time.monotonic() - started) * (total - done) / done
-            tell(f"units of n={unit[0]} p={unit[1]} m={unit[2]}", number, len(waiting), left)
+            tell(f"going through units of n={unit[0]} p={unit[1]} m={unit[2]}", number, len(waiting), left)
 
 
 def _good(line: Mapping[str, Any]) -> bool:

@@ -270,7 +270,7 @@ class AlgebraicNumber:
         if not isinstance(other, AlgebraicNumber):
             return fmpq_poly([other])
         if other.field != self.field:
-            raise ValueError(f"elements of {self.field} and of {other.field} do not mix")
+            raise ValueError(f"elements of {self.field} and of {other.field} do not mix, expected one field: build both over the same one")
         return other.poly
 
     def __add__(self, other: object) -> AlgebraicNumber:

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 PRIME = 2**61 - 1
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class Matrix:
     """This is an immutable matrix of shape nrows x ncols over one of the three kinds of field; a dimension may be zero.
 
@@ -55,6 +55,11 @@ class Matrix:
     nrows: int
     ncols: int
     flint: Any
+
+    def __init__(self, field: Field, nrows: int, ncols: int, flint: Any) -> None:
+        # What a dataclass makes of this for a frozen record takes three times as long, and it is called more often than all else here.
+        entries = self.__dict__
+        entries["field"], entries["nrows"], entries["ncols"], entries["flint"] = field, nrows, ncols, flint
 
     # -- building -------------------------------------------------------------------------------------------------
 
@@ -205,7 +210,9 @@ class Matrix:
         """The result is the other operand as a Matrix over the same field; nested lists become one."""
         other = as_matrix(other, "the other matrix", self.field)
         if self.field is not other.field and self.field != other.field:
-            raise InvalidInput(f"matrices over {self.field} and over {other.field} do not mix")
+            raise InvalidInput(
+                f"matrices over {self.field} and over {other.field} do not mix, expected one field: build both over the same one"
+            )
         return other
 
     def _of_equal_shape(self, other: object, sign: str) -> Matrix:

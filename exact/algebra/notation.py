@@ -36,7 +36,7 @@ def polynomial(coefficients: Sequence[Any], field: Field, unknown: str = "q") ->
 def field_words(field: Field) -> str:
     """The result is the field as people name it, a number field by the polynomial whose root it adjoins."""
     if isinstance(field, NumberField):
-        return f"Q(a), a a root of {polynomial([QQ.element(c) for c in field.minimal_polynomial], QQ, 'a')}"
+        return f"Q(a), where a is a root of {polynomial([QQ.element(c) for c in field.minimal_polynomial], QQ, 'a')}"
     return str(field)
 
 

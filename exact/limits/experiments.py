@@ -4,8 +4,8 @@
     read_experiment   from the dict of an exact file
     MAX_WINDOW_ROWS, MAX_STATES   what is supported
 
-u(k) = sum_j U_j e(k-j) and v(k) = sum_j V_j e(k-j) of the same white e of unit covariance, w of its own, independent one. A fault that
-leads the input, v(k) = K u(k+1), is written by delaying u. Only Q: covariances over another field have no meaning as numbers.
+u(k) = sum_j U_j e(k-j) and v(k) = sum_j V_j e(k-j) are of the same white e of unit covariance, and w is of an independent one. A fault that
+leads the input, v(k) = K u(k+1), is written by delaying u. The field is Q: covariances over another one have no meaning as numbers.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ filters from u(-1), u(-2) to the state have, up to factors that vanish nowhere i
     g(z) = 1 / z + gamma_s f_(s+1)(z),
 
 so that for poles a, b of A, (A, B) controllable, the rank is lost iff g(a) = g(b) (for a = b: g'(a) = 0), that is, iff A is regular and
-g(A) is a multiple of the identity. If A is singular, g has a pole there and the rank is full. Nothing but rational arithmetic in A.
+g(A) is a multiple of the identity. If A is singular, g has a pole there and the rank is full. All of this is rational arithmetic in A.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ short_rows    of rows of integers that are triangular by their pivots, as `integ
 Such a row is den at its pivot and zero at the pivots of the others, den their common denominator: the rows are a basis of the points of the
 lattice whose coordinates at the pivots are multiples of den. A combination of them by integers, over den, is integral iff it is zero modulo
 den; these combinations are found one coordinate at a time. An LLL-reduced basis of them is shorter by a factor that grows with the number
-of rows: five rows of one degree have numbers of a quarter of the length. Rows over Q only.
+of rows: five rows of one degree have numbers of a quarter of the length. The rows are over Q only.
 """
 
 from __future__ import annotations

@@ -316,7 +316,7 @@ def read_system(data: object, *, where: str = "system") -> System:
     A=[[1/2]], F=[[1]], C=[[1]], G=[[0]]
     >>> read_system({"A": [["1/2"]], "F": [[1]], "C": [[1]]})
     Traceback (most recent call last):
-    faultspace.base.errors.InvalidInput: system: key "G" is missing
+    faultspace.base.errors.InvalidInput: system: key "G" is missing, expected A, F, C and G
     """
     if not isinstance(data, Mapping):
         raise InvalidInput(f"{where}: got {shorten(data)}, expected an object with A, F, C, G")
@@ -325,11 +325,11 @@ def read_system(data: object, *, where: str = "system") -> System:
         raise InvalidInput(f"{where}: unknown key {shorten(unknown[0])}, expected A, F, C, G, B, D, field, n, m, p, nu")
     missing = [key for key in "AFCG" if key not in data]
     if missing:
-        raise InvalidInput(f'{where}: key "{missing[0]}" is missing')
+        raise InvalidInput(f'{where}: key "{missing[0]}" is missing, expected A, F, C and G')
     if ("B" in data) != ("D" in data):
         raise InvalidInput(f"{where}: got only one of B and D, expected both or neither")
     if "nu" in data and "B" not in data:
-        raise InvalidInput(f"{where}: got nu without B and D")
+        raise InvalidInput(f"{where}: got nu without B and D, expected all three or none")
     field = field_from_json(data.get("field", "Q"))
     try:
         system = _read_residual(data, field)

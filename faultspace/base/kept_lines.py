@@ -53,7 +53,7 @@ def append(path: Path, content: bytes) -> None:
         finally:
             os.close(descriptor)
     except OSError as error:
-        raise InvalidInput(f"{quote_path(str(path))}: cannot be written ({reason(error)})") from None
+        raise InvalidInput(f"{quote_path(str(path))}: cannot be written ({reason(error)}), expected another path") from None
 
 
 @contextmanager
@@ -98,7 +98,7 @@ def _read(path: Path, format: str, good: Callable[[Line], bool], option: str, na
     except OSError as error:
         raise _refused(option, name, reason(error)) from None
     except (ValueError, KeyError, TypeError, RecursionError):
-        raise _refused(option, name, "it is no such file") from None
+        raise _refused(option, name, "this one is no such file") from None
     return lines
 
 

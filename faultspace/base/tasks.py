@@ -96,7 +96,9 @@ def ordered(function: Callable[..., Result], tasks: Tasks, *, count: int) -> Ite
     following = 0
     for k, result in as_they_come(function, tasks, count=count, cluster=None if cluster is None else cluster.address):
         if isinstance(result, Died):
-            raise InvalidData(f"task {k + 1} of {len(tasks)} came to no end: {result.reason}")
+            raise InvalidData(
+                f"task {k + 1} of {len(tasks)} came to no end: {result.reason}; try fewer processes at a time, or more memory"
+            )
         came[k] = result
         while following in came:
             yield came.pop(following)

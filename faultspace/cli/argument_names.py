@@ -17,7 +17,7 @@ from ..base.errors import InvalidInput
 OPTIONS = {
     "order": "--order", "block_rows": "--block-rows", "n_v": "--faults", "healthy": "--healthy-until",
     "operating_point": "--operating-point", "dt": "--dt", "noise_level": "--noise-level",
-    "command": "--exec", "peer": "--peer",
+    "command": "--exec", "peer": "--peer", "pdf": "--pdf",
 }  # fmt: skip
 _ARGUMENT = re.compile(r"\b(" + "|".join(OPTIONS) + r")=(?:True\b|\"?(\w+)\"?)?")
 _SUBJECT = re.compile(r"(?:^|(?<=: ))(" + "|".join(OPTIONS) + "): ")

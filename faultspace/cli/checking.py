@@ -61,7 +61,9 @@ def _with_rocq(files: Sequence[CheckedFile]) -> list[CheckedFile]:
 def _show(console: Console, file: CheckedFile, *, as_json: bool) -> None:
     answer, name = file.answer, quote_path(file.answer["file"])
     if file.result == "malformed":
-        say(f"{name}: {answer['reason']}")
+        reason = answer["reason"]
+        reason = reason[:1].lower() + reason[1:] if reason[1:2].islower() else reason
+        say(f"{name}: {reason}; certificates are what `faultspace verify --out DIR` writes")
     elif not as_json:
         heading = Text.assemble((file.result, STYLES[file.result]), f"  {name}")
         if "sha256" in answer:

@@ -14,7 +14,7 @@ from rich.text import Text
 from ..base.errors import InvalidInput, in_file, quote_path
 from ..base.messages import say
 from ..base.progress import evenly, working
-from ..base.sheets import NAME_WIDTH, line
+from ..base.sheets import NAME_WIDTH, counted, line
 from ..proofs.brought.answers import ClaimAnswers
 from ..proofs.brought.case_files import is_choice, is_pair, is_record, read_case
 from ..proofs.brought.claim_files import read_claims
@@ -70,7 +70,7 @@ def run(
         names = {f"{one['kind']}-{sha256(one)[:12]}.json": one for one in found.certificates}
         for file, certificate in names.items():
             write_json(out / file, certificate)
-        say(f"{len(names)} certificates are in {quote_path(str(out))}, for: faultspace check")
+        say(f"{quote_path(str(out))} has {counted(len(names), 'certificate')}; check each with: faultspace check FILE")
     for one in found.answers:
         if not one.as_expected:
             say(f"{one.id} over {one.field}: got {one.verdict}, expected {one.expected}")
@@ -93,7 +93,7 @@ def _chosen(claims: list[Claim], only: list[str], option: str) -> list[Claim]:
 
 
 def _print(console: Console, found: ClaimAnswers) -> None:
-    for one in found.answers:
+    for one in sorted(found.answers, key=lambda answer: answer.as_expected):  # stable: what is not as expected is seen first
         paragraph(console, Text(one.title, style=f"bold {STYLES[one.verdict]}"))
         for label, value in one.sheet():
             paragraph(console, value, line(label, " ")[:-1] + " " * (len(label) >= NAME_WIDTH))

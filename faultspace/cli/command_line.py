@@ -24,6 +24,7 @@ from .audit_command import audit
 from .conjecture_command import conjecture
 from .failures import BAD_INPUT, INTERRUPTED, STOPPED, Terminated, asks_report, guarded, terminable
 from .option_types import Effort, Expected, Floats, Json, OneSystem, Plain, Verbose, in_our_words, jobs_number, number
+from .report_command import report
 
 Given = ParamSpec("Given")
 
@@ -464,6 +465,7 @@ def monte_carlo(
 
 
 _command()(audit)
+_command()(report)
 
 
 @_command()

@@ -15,7 +15,7 @@ from rich.text import Text
 from ..base.errors import InvalidInput, in_file, quote_path, shorten
 from ..base.messages import say
 from ..base.progress import evenly, working
-from ..base.sheets import NAME_WIDTH, Shown, line
+from ..base.sheets import NAME_WIDTH, Shown, counted, line
 from ..proofs.brought.claims import Claim
 from ..proofs.brought.conjectures import Sharpened
 from ..proofs.brought.conjecturing import MOST, conjecture, sharpen
@@ -97,7 +97,7 @@ def _write(out: Path, certificates: Iterable[Certificate]) -> None:
     names = {f"{one['kind']}-{sha256(one)[:12]}.json": one for one in certificates}
     for file, certificate in names.items():
         write_json(out / file, certificate)
-    say(f"{len(names)} certificates are in {quote_path(str(out))}, for: faultspace check")
+    say(f"{quote_path(str(out))} has {counted(len(names), 'certificate')}; check each with: faultspace check FILE")
 
 
 def _box(sizes: Sequence[str]) -> dict[str, Any]:

@@ -33,10 +33,10 @@ def run(folder: Path | None, *, as_json: bool) -> int:
             write_text(folder / f"{name}.toml", content(PREFIX + name).decode())
         write_text(folder / FILE_NAME, csv_text(faulty_record()))
         say(f"{len(DESCRIPTIONS)} systems and {len(EXPERIMENTS)} experiments are in {quote_path(str(folder))}")
-        say(f"claims.toml, for: faultspace claim {shlex.quote(str(folder / 'claims.toml'))}")
+        say(f"claims.toml is there, too; decide its claims with: faultspace claim {shlex.quote(str(folder / 'claims.toml'))}")
         data, out = shlex.quote(str(folder / FILE_NAME)), shlex.quote(str(folder / RESULT))
         channels = f"--inputs {','.join(INPUTS)} --outputs {','.join(OUTPUTS)}"
-        say(f"and {FILE_NAME}, for: faultspace identify {data} {channels} --out {out}")
+        say(f"{FILE_NAME} is a record with a fault; find it with: faultspace identify {data} {channels} --out {out}")
     if as_json:
         print_json({PREFIX + name: description for name, description in (DESCRIPTIONS | EXPERIMENTS | CLAIMS).items()})
         return ANSWERED

@@ -84,7 +84,7 @@ def guarded(body: Callable[[], int]) -> int:
     except OSError as error:  # files of the user's are opened with errors of their own: what names no file is the output itself
         if error.filename is not None:
             return asks_report(error)
-        say(f"standard output: cannot be written ({error.strerror or error})")
+        say(f"standard output: cannot be written ({error.strerror or error}), expected one that takes the answer")
         forget_output()
         return BAD_INPUT
     except Exception as error:

@@ -100,7 +100,7 @@ def run(
                 )
             if cluster is not None and cluster.lost:
                 say(f"{cluster.lost}; what was left was done here, and the answer is the same")
-            tell("writing", 0, 0)
+            tell("writing the answer", 0, 0)
             written, remarks = report.write(answer, out, data, tell, worded=worded)
     except BaseException:
         for folder in new:

@@ -162,7 +162,7 @@ def _calibrated(ready: _Ready, samples: Iterator[np.ndarray | None], watching: W
         healthy = _first(samples, watching.healthy_until or 0, ready.inputs, ready.outputs)
     level, window = LEVEL if watching.level is None else watching.level, WINDOW if watching.window is None else watching.window
     worded = as_options if watching.healthy is None else of_file
-    with working("calibrating"), naming(worded), in_file(watching.healthy or watching.follow or STDIN):
+    with working("calibrating the thresholds"), naming(worded), in_file(watching.healthy or watching.follow or STDIN):
         watch = Monitor(ready.plant, healthy, level=level, window=window)
     if watching.healthy is None:
         watch.samples = len(healthy)  # samples are numbered as they stand in the stream

@@ -83,7 +83,11 @@ jobs_number = number(int, 1, 2, MOST_JOBS)
 def in_our_words(message: str) -> str:
     """Return a complaint about options as all complaints about input are: the place, what was got, what is expected."""
     message = re.sub(r"^Invalid value for '([^']*)': ", lambda found: f"{found[1].split(' / ')[-1]}: ", message)
-    message = re.sub(r"^Missing (option|argument) '([^']*)'\.", r"\2: got none, expected the \1", message)
+    message = re.sub(r"^Missing (?:option|argument) '([^']*)'\.", r"\1: got none, expected one on the command line", message)
+    message = re.sub(r"^Option '([^']*)' requires (?:an argument|(\d+) arguments)\.", r"\1: got none, expected a value behind it", message)
+    message = re.sub(r"^No such (command|option):? '?([^' ]*?)'?(?:\. ?| |$)", r"\2: there is no such \1; ", message).removesuffix("; ")
+    message = re.sub(r"; \(Possible options: (.*)\)$", r"; the nearest are \1", message.replace("; Did you mean", "; did you mean"))
+    message = re.sub(r"^Got unexpected extra arguments?(?:\(s\))? \((.*)\)$", r"got \1, expected no argument there", message)
     return re.sub(r"(?:Value error, )?'([^']*)' is not one of (.*?)\.?$", r"got '\1', expected one of \2", message)
 
 

@@ -119,7 +119,7 @@ def _system_of_model(model: dict[str, object]) -> dict[str, object]:
         raise InvalidInput(f"unknown key {shorten(unknown[0])} in a model, expected {', '.join(_MODEL_KEYS)}")
     needed = [key for key in ("n", "n_u", "p", *"ABCD") if key not in model]
     if needed:
-        raise InvalidInput(f'key "{needed[0]}" is missing in a model')
+        raise InvalidInput(f'key "{needed[0]}" is missing in a model, expected n, n_u, p, A, B, C and D')
     if not _positive(model.get("dt", 1)):
         raise InvalidInput(f"got dt = {shorten(model['dt'])} in a model, expected a positive number of seconds")
     if ("F" in model) != ("G" in model) or ("F" in model) != ("n_v" in model):

@@ -143,7 +143,9 @@ def write(studies: Sequence[Study], out: Path) -> list[str]:
             _draw(studies, folder)
             written = replace(folder, out, NAMES)
     except OSError as error:
-        raise InvalidInput(f"{quote_path(str(out))}: cannot be written into ({error.strerror or error})") from None
+        raise InvalidInput(
+            f"{quote_path(str(out))}: cannot be written into ({error.strerror or error}), expected a folder that can"
+        ) from None
     return written
 
 
@@ -193,7 +195,7 @@ def _draw(studies: Sequence[Study], folder: Path) -> None:
     try:
         import matplotlib  # noqa: F401
     except ImportError:
-        say("no figures: matplotlib is missing (pip install faultspace[plots])")
+        say("no figures are drawn, since matplotlib is missing: pip install 'faultspace[plots]'")
         return
     from ..numeric.study.plots import study_figure
 

@@ -56,7 +56,7 @@ def run(
 
 def _studies(kept: Kept, *, systems: int, samples: int, jobs: int | None, scheduler: str | None, seed: int) -> list[Study]:
     studies = []
-    with working("starting") as tell:
+    with working("starting the study") as tell:
         for name, plan in STUDIES.items():
             study = monte_carlo(
                 plan,

@@ -1,8 +1,9 @@
 """Print what `faultspace verify` says by itself: a line for each claim, the unexpected ones first, and what stands behind them all.
 
-print_lines     the claims, what the verdicts mean, the hypotheses, the attacks, Rocq
-print_summary   the last line
-resting_on      how many readings of a claim have which verdict
+print_differences   what is not as expected, before all else
+print_lines         the claims, what the verdicts mean, the hypotheses, the attacks, Rocq
+print_summary       the last line
+resting_on          how many readings of a claim have which verdict
 hypothesis_words, attack_words   a sentence each
 """
 
@@ -27,8 +28,6 @@ def print_lines(console: Console, report: Report) -> None:
     """Print a line for each claim, then a sentence on each of what they rest on."""
     claims = sorted(report.claims, key=lambda claim: claim.as_expected)  # stable: else in the order of the ledger
     print_table(console, claims_table(claims))
-    for line in differences(report):
-        paragraph(console, Text(line, style="bold red"), "! ")
     there = {claim.verdict for claim in claims} | {one.outcome.verdict for claim in claims for one in claim.readings}
     occurring = [verdict for verdict in Verdict if verdict in there]
     paragraph(console, Text("; ".join(f"{verdict}: {verdict.meaning}" for verdict in occurring) + ".", style="dim"))
@@ -37,6 +36,12 @@ def print_lines(console: Console, report: Report) -> None:
     paragraph(console, attack_words(report), "attacks: ")
     paragraph(console, report.machine, "machine-checked: ")
     paragraph(console, Text(HELP, style="dim"))
+
+
+def print_differences(console: Console, report: Report) -> None:
+    """Print a line for whatever is not as expected: this stands before all else."""
+    for line in differences(report):
+        paragraph(console, Text(line, style="bold red"), "! ")
 
 
 def claims_table(claims: Sequence[ClaimResult]) -> Table:

@@ -1,7 +1,6 @@
 """Run `faultspace verify`, which decides every claim of the ledger anew, with the certificates that the verdicts rest on.
 
 run             the command's body
-write_out       the headline certificates and verdicts.json into a folder
 """
 
 from __future__ import annotations
@@ -16,16 +15,16 @@ from ..base.sheets import counted
 from ..proofs.evidence.specimens import specimens
 from ..proofs.rocq import recheck as rocq_recheck
 from ..proofs.rocq.build import BrokenTheory, NoRocq, NotProved
-from ..proofs.trust.structure_certificates import Certificate, sha256
 from ..proofs.verdict.ledger import load
+from ..proofs.verdict.run_folder import write_run
 from ..proofs.verdict.verdicts import Report
 from ..proofs.verification import verify
 from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, NOT_AS_EXPECTED
-from .reading_files import prepare_folder, write_json
+from .reading_files import prepare_folder
 from .verdict_page import print_page
-from .verdict_summary import print_lines, print_summary
-from .verdict_tables import SHORT, hypotheses_table, verdict_table
+from .verdict_summary import print_differences, print_lines, print_summary
+from .verdict_tables import hypotheses_table, verdict_table
 
 WIDE = 100  # below it the columns of the long tables hold a word a line
 
@@ -59,7 +58,7 @@ def run(
     with working("deciding the claims") as tell:
         report = verify(claims or None, effort=effort, jobs=jobs, scheduler=scheduler, resume=resume, on_progress=tell)
     if out is not None:
-        count = write_out(report, out, () if claims else specimens())
+        count = write_run(report, out, () if claims else specimens())
         say(f"{counted(count, 'certificate')} and verdicts.json are in {quote_path(str(out))}")
     if as_json:
         print_json(report.to_json())
@@ -82,18 +81,11 @@ def _rechecked() -> bool:
     return True
 
 
-def write_out(report: Report, folder: Path, more: Sequence[Certificate] = ()) -> int:
-    """Write all headline certificates and more as kind-<first 12 of its SHA-256>.json, then verdicts.json; return how many they are."""
-    certificates = [*report.certificates(), *more]
-    for certificate in certificates:
-        write_json(folder / f"{certificate['kind']}-{sha256(certificate)[:SHORT]}.json", certificate)
-    write_json(folder / "verdicts.json", report.to_json())
-    return len(certificates)
-
-
 def _print(report: Report, *, pages: bool, verbose: bool) -> None:
-    """Print a line for each claim, or a page, or the long tables (where they fit, else the pages), and always the summary line last."""
+    """Print what is not as expected, then a line for each claim, or a page, or the long tables (where they fit, else the pages), and always
+    the summary line last."""
     console = answers()
+    print_differences(console, report)
     tables = verbose and console.width >= WIDE
     if tables:
         console.print(verdict_table(report))

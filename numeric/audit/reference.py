@@ -73,7 +73,7 @@ def reconstruct(r: Array, A: Array, F: Array, C: Array, G: Array, x0: Array) -> 
 def structure(A: Array, F: Array, C: Array, G: Array) -> ZeroStructure:
     """The orders of infinite zeros are from #{order <= k} = rank T_(k+1) - rank T_k; the finite zeros are those of the pencil."""
     if not all(np.all(np.isfinite(matrix)) for matrix in (A, F, C, G)):
-        raise InvalidData("A, F, C, G: got entries that are NaN or infinite")
+        raise InvalidData("A, F, C, G: got entries that are NaN or infinite, expected finite ones")
     orders = _infinite_zero_orders(A, *in_equal_units(F, C, G))
     found = fault_zeros(A, F, C, G)
     return ZeroStructure(len(orders), [complex(z) for z in found.zeros], orders, len(orders) == F.shape[1])

@@ -83,7 +83,8 @@ def _information(model: StateSpaceModel, spectra: Spectra, samples: int, count: 
         root = np.linalg.inv(np.linalg.cholesky(disturbance))
     except np.linalg.LinAlgError:
         raise InvalidData(
-            "the disturbance has no power in some direction at some angle: there is no bound, an estimate could be exact"
+            "the disturbance has no power in some direction at some angle, so that an estimate could be exact and "
+            "there is no bound; a disturbance in every direction is needed"
         ) from None
     weight = np.conj(np.swapaxes(root, 1, 2)) @ root
     # The plant of the reduction does not matter for the information.

@@ -215,7 +215,10 @@ def _tied(model: StateSpaceModel, columns: Array, spectra: FaultSpectra) -> _Tie
         if spectrum.shape != (COARSE, size, size):
             raise InvalidData(f"the spectrum of the {name} has shape {spectrum.shape} at {COARSE} angles, needed {(COARSE, size, size)}")
     if np.linalg.eigvalsh(noise).min() <= 0:
-        raise InvalidData("the noise has no power in some direction at some angle: there is no bound, an estimate could be exact")
+        raise InvalidData(
+            "the noise has no power in some direction at some angle, so that an estimate could be exact and "
+            "there is no bound; noise in every direction is needed"
+        )
     power = through(plain, spectra.faults)(angles) + noise
     sizes = np.sqrt(np.maximum(np.einsum("mii->i", power).real / COARSE, np.finfo(np.float64).tiny))
     coordinates = observed_coordinates(sizes[None], model.A, model.C, n + 1)
@@ -225,7 +228,9 @@ def _tied(model: StateSpaceModel, columns: Array, spectra: FaultSpectra) -> _Tie
 
     values = np.linalg.svd(half_transfers(system_matrix(faulty), n, angles)[0], compute_uv=False)
     if np.all(values[:, -1] <= RANK * values[:, 0]):
-        raise InvalidData(f"the faults are dependent: the rank of their transfer function is below {n_v} at every angle")
+        raise InvalidData(
+            f"the rank of the transfer function of {counted(n_v, 'fault')} is below {n_v} at every angle; needed are independent faults"
+        )
 
     def scaled(at: Array) -> NDArray[np.complex128]:
         return np.asarray(spectra.noise(at) / np.outer(sizes, sizes))

@@ -36,7 +36,7 @@ def sinusoids(learnt: Predictor, after: Stretch, e: Array, names: Sequence[str],
     length = len(e)
     frequencies = np.arange(2 * SLOWEST, length - 1) / (2.0 * length)
     if len(frequencies) < 2:
-        yield from (undecided(LINE, name, "too few samples") for name in names)
+        yield from (undecided(LINE, name, "there are too few samples") for name in names)
         return
     transform = 2.0 / length * np.fft.rfft(about_slope(e), n=2 * length, axis=0)[2 * SLOWEST : length - 1]
     spectrum = HealthySpectrum(learnt)

@@ -5,7 +5,7 @@
 Three things are worth keeping of the healthy part. The coefficients with (X0' X0)^-1: a sum over another part of s(k) e(k) has the error
 X' s of their error in it, and with x = X' s / s's the variance of the coefficient of s is S h, h = 1/s's + x' (X0' X0)^-1 x, S the spectral
 density of e where s has its power (forecasts by least squares [C60]). The cosine transforms of e, each of covariance S at its frequency, so
-that colour which the predictor leaves is in every variance: B = .41 K^(2/3) neighbours make one estimate [LLSW18]. The covariance of e.
+that colour which the predictor leaves is in every variance: B = .41 K^(2/3) neighbours make one estimate of the covariance of e [LLSW18].
 
 The fault is in the regressors too, as far as it is in r; x is taken with that part replaced by what is expected without it, so that h does
 not grow with the fault.

@@ -29,7 +29,7 @@ def slow_changes(learnt: Predictor, before: Stretch, after: Stretch, e: Array, n
     length = len(e)
     for kind, pattern in ((MEAN, np.ones(length)), (DRIFT, _slope(length))):
         if learnt.wanders or length < 3:
-            yield from (undecided(kind, name, WANDERS if learnt.wanders else "too few samples") for name in names)
+            yield from (undecided(kind, name, WANDERS if learnt.wanders else "there are too few samples") for name in names)
             continue
         rest = before.u.mean(axis=0) if kind == MEAN else 0.0
         wrong = _wrong(after, pattern @ after.u[len(after) - length :] / float(pattern @ pattern) - rest) / learnt.scales

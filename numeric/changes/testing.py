@@ -164,13 +164,15 @@ def _tested(
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         try:
             if len(before) < 2:
-                raise InvalidData(f"{counted(len(before), 'sample')} without fault are too few")
+                raise InvalidData(f"got {counted(len(before), 'sample')} without fault; two at least are needed: state more of them")
             learnt = predictor(before)
             if len(after) <= learnt.lags + 3:
-                raise InvalidData(f"{counted(len(after), 'sample')} are too few for a predictor of {counted(learnt.lags, 'lag')}")
+                raise InvalidData(
+                    f"got {counted(len(after), 'sample')} after those without fault; {learnt.lags + 4} at least are needed: state fewer"
+                )
             e = learnt.innovations(after)
             if not np.all(np.isfinite(e)) or not np.all(np.isfinite(e**2)):
-                raise InvalidData("numbers of the residual are too unequal to compute with, as outliers make them")
+                raise InvalidData("numbers of the residual are too unequal to compute with, as outliers make them: mend those first")
             evidence += [*slow_changes(learnt, before, after, e, outputs, one), *changed_variances(learnt, before, after, e, outputs, one)]
             if set(kinds) == set(KINDS):
                 evidence += [*sinusoids(learnt, after, e, outputs, one), *changed_gains(learnt, before, after, names, one)]

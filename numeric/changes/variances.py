@@ -33,7 +33,7 @@ def changed_variances(
 ) -> Iterator[Evidence]:
     """Yield the rows of growth and loss, each tested at `level`; e (M - lags, p) are the innovations of the part `after`."""
     if len(e) < 4:
-        yield from (undecided(kind, name, "too few samples") for kind in (GROWTH, LOSS) for name in names)
+        yield from (undecided(kind, name, "there are too few samples") for kind in (GROWTH, LOSS) for name in names)
         return
     # The healthy part is explained too well by what was fitted to it, and the other part not as well as by the true system.
     spent = min(before.fitted / len(before), 0.5)

@@ -218,7 +218,7 @@ def fault_dimension_against_healthy(
     )
     n_v: int | None = found
     if found == 0:
-        reason = f"nothing beyond the healthy record; a fault of less than {visible:.1f} times its noise would not be seen"
+        reason = f"nothing goes beyond the healthy record; a fault of less than {visible:.1f} times its noise would not be seen"
     elif found == healthy.p:
         n_v, reason = (
             None,

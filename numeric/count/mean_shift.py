@@ -142,7 +142,10 @@ def _learnt(r: Array, inputs: Array) -> MeanReference:
         )
     factor, triangle = np.linalg.qr(X)
     if np.linalg.cond(triangle) * ROUNDING >= 1.0:
-        raise InvalidData("the channels are combinations of others and of their past up to rounding: there is no noise to compare with")
+        raise InvalidData(
+            "channels are combinations of others and of their past up to rounding, so that there is no noise to compare "
+            "with: leave such out"
+        )
     root = np.asarray(np.linalg.inv(triangle)).T
     coefficients = root.T @ (factor.T @ now)
     e = now - X @ coefficients
@@ -153,7 +156,8 @@ def _learnt(r: Array, inputs: Array) -> MeanReference:
     still = np.eye(p) - sum(steps, np.zeros((p, p)))
     if np.linalg.cond(still) * ROUNDING >= 1.0:
         raise InvalidData(
-            "the channels are nearly combinations of others and of their past, or wander like random walks: means say nothing"
+            "channels are nearly combinations of others and of their past, or wander like random walks, so that means say "
+            "nothing: leave such out"
         )
     of_r = X[:, [1 + j * width + i for j in range(lags) for i in range(p)]]
     of_r = of_r - of_r.mean(axis=0)

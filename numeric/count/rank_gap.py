@@ -159,7 +159,9 @@ def fault_dimension(r: ArrayLike | Stored, *, block_rows: int | None = None, u: 
         return _record(exact, scales, n_v, reason, "rounding")
     degree = min(rows - 1, LARGEST_DEGREE)
     if degree < 3:
-        reason = f"noise in every direction, and block_rows = {rows} leaves too short windows to look for laws below it; try at least 4"
+        reason = (
+            f"there is noise in every direction, and block_rows = {rows} leaves too short windows to look for laws below it; try at least 4"
+        )
         return _record(exact, scales, None, reason, "noise")
     test = kernel_row_test(_mixtures(scaled), degree, u=inputs)
     columns = exact.columns

@@ -127,7 +127,7 @@ def kernel_row_test(r: Array, degree: int, *, u: Array | None = None) -> KernelR
     if below.middle - floor.middle <= ALARM:
         return undecided(
             f"on {counted(low, 'mixed output')} the best law still improves by {decibels(below.drop)} over the last two degrees (at most "
-            f"{decibels(bound)} allowed): an order that needs larger block_rows"
+            f"{decibels(bound)} allowed): the order may need larger block_rows"
         )
     if rise <= 0.0:
         return undecided(

@@ -97,7 +97,7 @@ def _written(
             )
         writer.append(np.hstack([u, y]))
     if writer is None:
-        raise InvalidData("no data: the iterable of pieces (y, u) is empty")
+        raise InvalidData("got no data, since the iterable of pieces (y, u) is empty: give at least one piece")
     outputs, inputs = (
         list(given) if given is not None else [f"{letter}{i + 1}" for i in range(width)]
         for given, letter, width in zip(names, "yu", widths, strict=True)

@@ -126,7 +126,7 @@ def _arx(record: Record, model: object) -> tuple[Arx | None, str]:
     lags = longest_lag([min(len(record), HEARD)], record.p, record.n_u)
     try:
         if lags < 1:
-            raise InvalidData("the record is too short for an ARX model")
+            raise InvalidData("the record is too short for an ARX model: record more")
         windows = arx_windows([record.stretch(0, HEARD)], lags)
         return fitted_arx(windows, 1).scaled(*windows.scales), ""
     except (InvalidData, np.linalg.LinAlgError) as error:

@@ -159,7 +159,7 @@ def _sections(data: Iterable[tuple[Array, Array]], lags: int) -> Iterator[tuple[
                 kept = [(whole_y[SECTION:].copy(), whole_u[SECTION:].copy())]
                 held -= SECTION
     if not kept:
-        raise InvalidData("no data: the iterable of pieces (y, u) is empty")
+        raise InvalidData("got no data, since the iterable of pieces (y, u) is empty: give at least one piece")
     y, u = (np.concatenate(parts) for parts in zip(*kept, strict=True))
     yield y, u, lags
 
@@ -215,7 +215,9 @@ def merge_windows(parts: Sequence[ArxWindows]) -> ArxWindows:
     for other in parts:
         for name in ("lags", "p", "n_u"):
             if getattr(other, name) != getattr(first, name):
-                raise InvalidData(f"windows with {name} = {getattr(first, name)} and {getattr(other, name)} cannot be merged")
+                raise InvalidData(
+                    f"windows with {name} = {getattr(first, name)} and {getattr(other, name)} cannot be merged: give them equal settings"
+                )
     if len(parts) == 1:
         return first
     return replace(

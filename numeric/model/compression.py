@@ -130,7 +130,7 @@ def _started(data: Iterator[tuple[Array, Array]], past_rows: int, block_rows: in
     try:
         y, u = next(data)
     except StopIteration:
-        raise InvalidData("no data: the iterable of pieces (y, u) is empty") from None
+        raise InvalidData("got no data, since the iterable of pieces (y, u) is empty: give at least one piece") from None
     shape = _Shape(u.shape[1], y.shape[1], past_rows, block_rows)
     return shape, (u, y)
 

@@ -44,7 +44,7 @@ def order_tried(sources: Sequence[Pieces], lengths: Sequence[int], lags: int, of
     inflation = weight_inflation(arx)
     found = minima(whole, arx, problem, coarse, 2.0 * a_state * inflation)
     if not found:
-        raise InvalidData("no start for any order: the data show no dynamics that a model could be begun from")
+        raise InvalidData("no model can be begun for any order: the data show no dynamics; record with an input that varies more")
     fits, gaps = _fits(training, whole, held, found), _gaps(arx, max(lags, 1))
     rows = []
     for n, (one, (one_step, free_run)) in enumerate(zip(found, fits, strict=True)):

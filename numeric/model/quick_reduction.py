@@ -30,5 +30,5 @@ def quick_reduction(arx: Arx, n: int, steps: int = STEPS) -> StateSpaceModel:
     problem = Reduction(angles, arx.plant(angles), arx.weight(angles), white, arx.rows)
     begun = sorted(realisations(arx, problem, n, arx.order), key=lambda start: problem.cost(start, n))
     if not begun:
-        raise InvalidData(f"no start for order {n}")
+        raise InvalidData(f"no model of order {n} can be begun from this ARX model: try another order")
     return state_space(descend(problem, begun[0], n, steps, GAIN)[0], n)

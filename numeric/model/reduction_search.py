@@ -46,7 +46,9 @@ def minimum(windows: ArxWindows, arx: Arx, problem: Reduction, coarse: Reduction
     longer = _climbed(rungs, starts(windows, arx, rungs[0], n + 1), n + 1, 1) if n else []
     found += _nearest(coarse, begun + [less for one in longer for less in one_state_less(one.matrix, n + 1, coarse)], n, TRUE)
     if not found:
-        raise InvalidData(f"no start for order {n}: the data show no dynamics that a model of this order could be begun from")
+        raise InvalidData(
+            f"no model of order {n} can be begun, since the data show no dynamics for it: state a lower order, or record more"
+        )
     return Found(*arrived(problem, _least(found).matrix, n))
 
 

@@ -185,7 +185,9 @@ def write(
             written = replace(folder, out, NAMES)
     except OSError as error:
         reason = error.strerror or str(error)
-        raise InvalidInput(f"{quote_path(str(out))}: cannot be written into ({reason[:1].lower()}{reason[1:]})") from None
+        raise InvalidInput(
+            f"{quote_path(str(out))}: cannot be written into ({reason[:1].lower()}{reason[1:]}), expected another folder"
+        ) from None
     return written, remarks
 
 

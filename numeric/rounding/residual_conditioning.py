@@ -9,7 +9,7 @@ The exact model may be given by rational matrices of which the floats are the co
     fault_signal_error      |v - exact v| on the trusted samples <= |W| |r - exact r that v explains|, W their rows of [O_N T_N]^+: the
                             float v explains its own simulated residual exactly, whatever the way it was found
 
-Norms are Frobenius norms over all samples and channels, in the units of the data. Backward errors as in `conditioning`.
+Norms are Frobenius norms over all samples and channels, in the units of the data. Backward errors are those of `conditioning`.
 """
 
 from __future__ import annotations

@@ -35,7 +35,7 @@ ENOUGH, TOO_LOW = 0.01, 1e-6
 # Where the degree suffices, the ratio over its degrees of freedom exceeds one by so much, for one degree more and for several. One more
 # frees a real root, several free pairs of roots, which can stand at any frequency; so the second is larger. `python
 # benchmarks/degree_misfits.py` prints what makes the law true at one in ten.
-SLACK = 0.6, 2.0
+SLACK = 1.2, 3.0
 # They were calibrated on records of up to 10 000 samples, each counted twice by the moments. What the rows miss within a segment of the
 # moments does not fall with N, so that on longer and longer records the ratio would end by refusing every degree. They are judged as if
 # they had half so many samples.

@@ -10,10 +10,11 @@ channels can be estimated, and whether the remainder has that shape can be teste
     sphericity    likelihood ratio of "one colour, k equal rows" against "any cross spectrum" [M82], smooth over each band
     Sphericity    its value, degrees of freedom and level
 
-The law of the ratio. In one band n_b complex normal samples of k equal rows have log det(W) - k log(tr(W)/k) with the moments of a ratio
-of gamma functions, because the trace is independent of the shape: its mean is sum psi(n_b - j) - k psi(n_b k) + k log k and its variance
-sum psi'(n_b - j) - k^2 psi'(n_b k), j = 0 .. k - 1. Over the bands -2 n_b times their sum is chi-squared in the limit, with B (k^2 - 1)
-degrees of freedom; here a multiple of a chi-squared variable with the exact mean and variance, so that short records need no limit.
+This is the law of the ratio. In a band n_b complex normal samples of k equal rows have log det(W) - k log(tr(W)/k) with the moments of a
+ratio of gamma functions, because the trace is independent of the shape: its mean is sum psi(n_b - j) - k psi(n_b k) + k log k and its
+variance sum psi'(n_b - j) - k^2 psi'(n_b k), j = 0 .. k - 1. Over the bands -2 n_b times their sum is chi-squared in the limit, with
+B (k^2 - 1) degrees of freedom; here it is a multiple of a chi-squared variable with the exact mean and variance, so that short records need
+no limit.
 """
 
 from __future__ import annotations

@@ -168,7 +168,7 @@ def reconstruct_fault(
     def solve(start: int, stop: int, state: ArrayLike | None = None) -> Stretch:
         return smoothed(store.read(start, stop), A, F, C, G, x0=state)
 
-    on_progress("fault signal", 0, N)
+    on_progress("reconstructing the fault signal", 0, N)
     not_zero(any(np.any(rows) for rows in store.pieces()))
     if x0 is not None or N <= LONGEST:
         found = _single(solve(0, N, x0), store, kept)
@@ -177,7 +177,7 @@ def reconstruct_fault(
         margin = max(begin.trusted[0], LONGEST - begin.trusted[1], LEAST_MARGIN)
         lost = begin.trusted[0] >= begin.trusted[1] or 4 * margin > LONGEST
         found = _single(solve(0, N), store, kept) if lost else _joined(begin, solve, store, margin, kept, on_progress)
-    on_progress("fault signal", N, N)
+    on_progress("reconstructing the fault signal", N, N)
     return found
 
 
@@ -198,7 +198,7 @@ def _joined(
         left += float(np.sum(error**2))
         parts += _squares(error, given, len(v), within)
         v.append(piece.v[part])
-        on_progress("fault signal", kept, N)
+        on_progress("reconstructing the fault signal", kept, N)
         if end == N:
             break
         before = piece.v[kept - start : kept - start + COMPARED]

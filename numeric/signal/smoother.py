@@ -121,7 +121,7 @@ def _faults(n: int, p: int, F: ArrayLike, G: ArrayLike, x0: ArrayLike | None) ->
     if F.shape != (n, m) or G.shape != (p, m):
         raise InvalidData(f"F, G: got shapes {F.shape} and {G.shape}; needed ({n}, n_v) and ({p}, n_v), columns even for one fault")
     if not (np.all(np.isfinite(F)) and np.all(np.isfinite(G))):
-        raise InvalidData("F, G: got entries that are NaN or infinite")
+        raise InvalidData("F, G: got entries that are NaN or infinite, expected finite ones")
     if not 1 <= m <= p:
         raise InvalidData(
             f"F, G: got {counted(m, 'fault')} for {counted(p, 'output')}; needed 1 <= n_v <= "

@@ -208,7 +208,9 @@ def isolate(
     (p, n), n_u = matrices.C.shape, matrices.B.shape[1]
     if space.n != n or len(space.basis) != n + p:
         got = f"{counted(len(space.basis), 'row')} and {counted(space.n, 'state')}"
-        raise InvalidData(f"space: got {got} for a model of {counted(n, 'state')} and {counted(p, 'output')}")
+        raise InvalidData(
+            f"space: got {got} for a model of {counted(n, 'state')} and {counted(p, 'output')}; needed is the fault space of this model"
+        )
     names = (list(outputs or [f"y{j + 1}" for j in range(p)]), list(inputs or [f"u{j + 1}" for j in range(n_u)]))
     for given, count, what in ((names[0], p, "outputs"), (names[1], n_u, "inputs")):
         if len(given) != count:

@@ -251,9 +251,9 @@ def _checked(shift: ArrayLike, covariance: ArrayLike, p: int) -> tuple[Array, Ar
     """Return shift (p,) and covariance (p, p). Raises InvalidData for what is none."""
     d, V = np.asarray(shift, dtype=np.float64), np.asarray(covariance, dtype=np.float64)
     if d.shape != (p,) or V.shape != (p, p):
-        raise InvalidData(f"shift: got the shapes {d.shape} and {V.shape} of shift and covariance for a model of {counted(p, 'output')}")
+        raise InvalidData(f"shift, covariance: got shapes {d.shape} and {V.shape}; needed ({p},) and ({p}, {p}) for {counted(p, 'output')}")
     if not (np.all(np.isfinite(d)) and np.all(np.isfinite(V))):
-        raise InvalidData("shift: shift and covariance must be finite")
+        raise InvalidData("shift, covariance: got entries that are NaN or infinite; finite ones are needed")
     if not positive_definite(V):
         raise InvalidData("covariance: a positive definite matrix is needed; leave out outputs that are exact combinations of others")
     return d, (V + V.T) / 2

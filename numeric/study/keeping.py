@@ -79,7 +79,7 @@ class Kept:
                 self._begin()
             _append(self.path, lines.encode())
         except OSError as error:
-            raise InvalidInput(f"{quote_path(str(self.path))}: cannot be written ({reason(error)})") from None
+            raise InvalidInput(f"{quote_path(str(self.path))}: cannot be written ({reason(error)}): name a new folder") from None
         self.cases.setdefault(plan, {}).update((one.index, one) for one in cases if isinstance(one, Case))
 
     def finish(self) -> None:

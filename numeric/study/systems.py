@@ -5,7 +5,7 @@
     with_zeros       F, G for given A, C such that the fault system loses rank at each given number
     pencil_zeros     finite zeros of A, F, C, G from the pencil alone, by random compression to square pencils
 
-Construction of the zeros. F and G have a zero at z with state w and fault direction g iff
+The zeros are constructed as follows. F and G have a zero at z with state w and fault direction g iff
 
     (A - z I) w + F g = 0,    C w + G g = 0,    (w, g) != 0,
 
@@ -102,7 +102,7 @@ def study_system(n_zeros: int, seed: np.random.SeedSequence | int) -> StudySyste
         if _as_intended(A, F, C, G, np.sort(zeros)):
             model = StateSpaceModel(A, B, C, D)
             return StudySystem(model, F, G, np.sort(zeros), _fault_space(A, F, C, G, W), attempt)
-    raise InvalidData(f"no system with exactly {counted(n_zeros, 'zero')} in {ATTEMPTS} attempts: the seed is more than unlucky")
+    raise InvalidData(f"no system with exactly {counted(n_zeros, 'zero')} was found in {ATTEMPTS} attempts: try another seed")
 
 
 def with_zeros(
@@ -123,7 +123,7 @@ def with_zeros(
     if solutions.shape[1] == 0:
         raise InvalidData(
             f"{counted(count, 'zero')} {'is' if count == 1 else 'are'} too many for {counted(n, 'state')}, "
-            f"{counted(p, 'output')} and {counted(n_v, 'fault')} in these directions"
+            f"{counted(p, 'output')} and {counted(n_v, 'fault')} in these directions: ask for fewer zeros"
         )
     # An orthonormal basis of the [F; G] alone, so that normal coefficients make a normal draw there.
     basis, sizes, right = np.linalg.svd(solutions[:height], full_matrices=False)

@@ -1,7 +1,8 @@
 """What a run of `verify` does with the attacks: shows them beside the verdict, and lets a counterexample that is confirmed now decide.
 
-    Attacking      records run now, or None: those of the package's file
+    Attacking      records run now, or None: those of the package's file, and what was found of them again
     attacking      of an effort: "full" runs every attack on the chosen claims again
+    looked_at_again    the same with every record on some targets checked again, by all processes
     of_reading     a reading's result with its attacks
     of_row         a row of the hypothesis table with its attacks
 
@@ -11,15 +12,16 @@ and where the file has nothing on a statement that the catalogue attacks.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from ...base.progress import Progress
 from ...base.sheets import counted
+from ...base.tasks import ordered, processes
 from ..evidence.attacks import Attacked
 from .catalogue import WITHOUT, attacks_on, catalogue
-from .results import AttackRecord, checked_again, run_attacks
+from .results import AttackRecord, checked_again, run_attacks, stored
 
 if TYPE_CHECKING:
     from ..verdict.verdicts import ReadingResult, Row
@@ -29,9 +31,15 @@ SECONDS = 15.0
 
 @dataclass(frozen=True)
 class Attacking:
-    """A run of `verify` rests on these records; None stands for those of the package's file."""
+    """A run of `verify` rests on these records; None stands for those of the package's file. `again` has, by target, those that were
+    checked again; the others are when they are asked for."""
 
     records: tuple[AttackRecord, ...] | None
+    again: Mapping[str, tuple[Attacked, ...]] = field(default_factory=dict)
+
+    def on(self, target: str) -> tuple[Attacked, ...]:
+        """Return the records on a target, each checked again."""
+        return self.again[target] if target in self.again else checked_again(target, self.records)
 
 
 def attacking(
@@ -50,7 +58,7 @@ def attacking(
     chosen = [attack for attack in catalogue() if attack.target.startswith(WITHOUT) or attack.target.partition(".")[0] in claims]
 
     def report(name: str, done: int, total: int) -> None:
-        progress(f"adversary: {name}", done, total)
+        progress(f"attacking: {name}", done, total)
 
     records = {attack.id: record for attack in chosen if (record := known(attack.id)) is not None}
     waiting = [attack for attack in chosen if attack.id not in records]
@@ -60,11 +68,19 @@ def attacking(
     return Attacking(tuple(records[attack.id] for attack in chosen))
 
 
+def looked_at_again(attacks: Attacking, targets: Sequence[str], jobs: int) -> Attacking:
+    """Return the same with the records on these targets checked again, by so many processes."""
+    records = stored() if attacks.records is None else attacks.records
+    tasks = [(target, here) for target in targets if (here := tuple(one for one in records if one["target"] == target))]
+    found = ordered(checked_again, tasks, count=processes(jobs))
+    return replace(attacks, again={target: again for (target, _), again in zip(tasks, found, strict=True)})
+
+
 def of_reading(result: ReadingResult, claim: str, attacks: Attacking) -> ReadingResult:
     """Returns the result with its attacks; its verdict gives way to a counterexample."""
     from ..verdict.verdicts import Verdict  # which needs the records of this folder
 
-    found = checked_again(f"{claim}.{result.reading.id}", attacks.records)
+    found = attacks.on(f"{claim}.{result.reading.id}")
     result = replace(result, attacks=found)
     unproved = result.outcome.verdict == Verdict.CERTIFIED
     words = _against(found) or (_absent(f"{claim}.{result.reading.id}", found) if unproved else None)
@@ -80,7 +96,7 @@ def of_row(row: Row, attacks: Attacking) -> Row:
 
     if len(row.dropped) != 1:
         return row
-    found = checked_again(f"{WITHOUT}{row.ablation}: {row.dropped[0]}", attacks.records)
+    found = attacks.on(f"{WITHOUT}{row.ablation}: {row.dropped[0]}")
     row = replace(row, attacks=found)
     unproved = row.verdict == Verdict.CERTIFIED
     words = _against(found) or (_absent(f"{WITHOUT}{row.ablation}: {row.dropped[0]}", found) if unproved else None)

@@ -103,7 +103,7 @@ def sweep(one: Sweep, *, seconds: float) -> Swept:
 
 
 def _systems(q: int, n: int, p: int, m: int) -> Iterator[Case]:
-    found: list[Orbit] = orbits(q, n, p, m)
+    found: tuple[Orbit, ...] = orbits(q, n, p, m)
     for orbit in found:
         yield orbit.system, orbit.size
 

@@ -24,7 +24,6 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 import numpy as np
-from scipy.optimize import linprog
 
 from ..language.nodes import Node
 from .normal_forms import (
@@ -361,6 +360,8 @@ def _combined(what: Sum, known: _Known) -> Sources | None:
             else:
                 constants[k] = -times
     constants[-1] += 1
+    from scipy.optimize import linprog  # here and below: `verify` decides its claims without, and each of its processes would load it
+
     found = linprog(-table[-1], A_ub=table, b_ub=constants, bounds=(None, None), method="highs")
     if found.status == INFEASIBLE:
         known.impossible = _contradiction(rows)
@@ -435,6 +436,8 @@ def _contradiction(rows: Sequence[tuple[Sum, Sources]]) -> Sources | None:
             table[products[product], k] = times
     target = np.zeros(len(products))
     target[0] = 1.0
+    from scipy.optimize import linprog
+
     found = linprog(np.ones(len(rows)), A_eq=table, b_eq=target, bounds=(0, None), method="highs")
     if not found.success:
         return None

@@ -128,7 +128,9 @@ def _share(box: Box, sizes: Sizes, asked: list[Question], left: int, sharing: Sh
     for number, part in as_they_come(_search_part, tasks, count=sharing.jobs, cluster=sharing.cluster):
         k = waiting[number]
         if isinstance(part, Died):
-            raise InvalidData(f"part {k + 1} of {of} of {box} came to no end: {part.reason}")
+            raise InvalidData(
+                f"part {k + 1} of {of} of {box} came to no end: {part.reason}; try a smaller box, or fewer processes at a time"
+            )
         parts[k] = part
         if kept is not None and not any(part.first):
             kept.note(names[k], systems=part.systems, looked_at=part.looked_at, whole=part.whole, met=part.met)

@@ -18,10 +18,10 @@ from ...exact.pairs.bad_variety import bad_set
 from ...exact.pairs.polynomial import Exceptional, judge
 from ...exact.pairs.witnesses import BadPair, bad_pair
 from ...exact.structure.fault_columns import with_pair
-from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.families import adversarial, random_systems
+from ..evidence.kept_kernels import kernel_once
 from ..evidence.pairs_by_polynomial import pencil_of
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
@@ -63,7 +63,7 @@ def codimension_two(bench: Workbench) -> Outcome:
     count, missed = 0, 0
     headline: tuple[Certificate, ...] = ()
     for done, pencil in enumerate(tried):
-        bench.progress("lines without a bad P", done, len(tried))
+        bench.progress("looking for lines without a bad P", done, len(tried))
         stated = bad_set(pencil).codimension
         if stated is not None and stated < 2:
             certificates = accepted(_kernel(pencil))
@@ -91,7 +91,7 @@ def codimension_unobservable(bench: Workbench) -> Outcome:
         if pencil.zeta and size == 1:
             bad = bad_pair(pencil)
             if isinstance(bad, BadPair) and pencil.n_z == 2 and pencil.columns == 1:
-                pair = kernel_representation(with_pair(pencil.space, bad.verdict.P))
+                pair = kernel_once(with_pair(pencil.space, bad.verdict.P))
                 certificates = [*_kernel(pencil), comparison_certificate(pencil.kernel, pair), make.left_invertible(pair)]
                 text = f"{system}: P has two entries, and every multiple of {bad.verdict.P} is bad"
                 return counterexample(text, box, certificates)
@@ -105,8 +105,8 @@ def _kernel(pencil: Exceptional) -> Iterator[Certificate]:
 
 def _pencils(bench: Workbench) -> Iterator[Exceptional]:
     systems = [s for _, s in adversarial() if s.n <= 4]
-    systems += islice(random_systems(QQ, 4000, seed=11), 1500 if bench.full else 250)
-    systems += islice(random_systems(PrimeField(10007), 4000, seed=12), 300 if bench.full else 60)
+    systems += islice(random_systems(QQ, 4000, seed=11), 1500 if bench.full else 80)
+    systems += islice(random_systems(PrimeField(10007), 4000, seed=12), 300 if bench.full else 20)
     for system in systems:
         if system.field == QQ or isinstance(system.field, PrimeField):
             yield pencil_of(system)

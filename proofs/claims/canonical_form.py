@@ -8,9 +8,9 @@ import numpy as np
 
 from ...exact.pairs.canonical_form import behavior_name, fault_class, with_feedback
 from ...exact.structure.fault_columns import fault_space
-from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import AlternativeEvidence, PairEvidence, comparison_certificate, ranked
+from ..evidence.kept_kernels import kernel_once
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -28,10 +28,10 @@ def any_a_c(bench: Workbench) -> Outcome:
     """The same is claimed for different (A, C): equal behaviours have equal Z. This finds the smallest system and feedback that say no."""
     box = Box(total=4, largest_n=1, largest_m=1, largest_p=2)
     for system in systems_in_order(box, lambda f: np.asarray(f.observable & f.controllable & f.left_invertible)):
-        kernel = kernel_representation(system)
+        kernel = kernel_once(system)
         for similar in (system, ResidualSystem(system.A, -system.F, -system.C, system.G)):
             for gain in (0, 1, -1):
-                other = kernel_representation(with_feedback(similar, [[gain]]))
+                other = kernel_once(with_feedback(similar, [[gain]]))
                 if fault_space(other).basis != fault_space(kernel).basis:
                     certificates = [comparison_certificate(kernel, other), make.fault_space(kernel, fault_space(kernel))]
                     certificates.append(make.fault_space(other, fault_space(other)))
@@ -44,8 +44,8 @@ def feedback(bench: Workbench) -> Outcome:
     """B is claimed to name (A, C): but feedback of the state into the fault gives a system with other A and C and the same behaviour."""
     box = Box(total=4, largest_n=1, largest_m=1, largest_p=2)
     for system in systems_in_order(box, lambda f: np.asarray(f.observable & f.controllable & f.left_invertible)):
-        kernel = kernel_representation(system)
-        other = kernel_representation(with_feedback(system, [[1]]))
+        kernel = kernel_once(system)
+        other = kernel_once(with_feedback(system, [[1]]))
         if (other.system.A, other.system.C) != (system.A, system.C):
             certificates = [comparison_certificate(kernel, other)]
             if certificates[0]["kind"] == "behaviour-equality":
@@ -68,14 +68,14 @@ def _name(system: ResidualSystem) -> object:
 
 
 def _show_alternative(record: AlternativeEvidence) -> Iterator[Certificate]:
-    kernels = kernel_representation(record.system), kernel_representation(record.alternative)
+    kernels = kernel_once(record.system), kernel_once(record.alternative)
     yield comparison_certificate(*kernels)
     for kernel in kernels:
         yield make.fault_space(kernel, fault_space(kernel))
 
 
 def _show_pair(record: PairEvidence) -> Iterator[Certificate]:
-    kernels = kernel_representation(record.first), kernel_representation(record.second)
+    kernels = kernel_once(record.first), kernel_once(record.second)
     yield comparison_certificate(*kernels)
     for kernel in kernels:
         yield make.window_ranks(kernel)

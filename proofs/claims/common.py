@@ -15,9 +15,9 @@ from typing import Any
 
 from ...exact.parametric.stratification import Stratification, stratify
 from ...exact.structure.fault_columns import fault_space
-from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..evidence.corpus import Evidence
+from ..evidence.kept_kernels import kernel_once
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict
@@ -26,7 +26,7 @@ from ..verdict.workbench import Show, Test, Workbench
 
 def ranks_and_inversion(system: ResidualSystem) -> Iterator[Certificate]:
     """Certificates of the window ranks, and of whether the system is left-invertible."""
-    kernel = kernel_representation(system)
+    kernel = kernel_once(system)
     yield make.window_ranks(kernel)
     yield make.left_invertible(kernel)
 
@@ -35,7 +35,7 @@ def delays(system: ResidualSystem) -> Iterator[Certificate]:
     """Certificates of the window ranks, of left-invertibility, of observability and of both delays."""
     yield from ranks_and_inversion(system)
     yield make.matrix_rank("observability", system)
-    kernel = kernel_representation(system)
+    kernel = kernel_once(system)
     yield make.inversion_delay(kernel, known_state=True)
     yield make.inversion_delay(kernel, known_state=False)
 
@@ -54,7 +54,7 @@ def spaces(window: Callable[[ResidualSystem], int]) -> Show:
 
     def show(system: ResidualSystem) -> Iterator[Certificate]:
         yield from ranks_and_inversion(system)
-        kernel = kernel_representation(system)
+        kernel = kernel_once(system)
         yield make.fault_space(kernel, fault_space(kernel, window(system)))
         yield make.fault_space(kernel, fault_space(kernel))
 
@@ -69,7 +69,7 @@ def identity(bench: Workbench, claim: Callable[[Stratification], Any], quick: Se
     dimensions = [*quick, *full] if bench.full else list(quick)
     strata = expanded = 0
     for done, (n, p, m) in enumerate(dimensions):
-        bench.progress(f"all parameter values, n={n} p={p} m={m}", done, len(dimensions))
+        bench.progress(f"going through all parameter values, n={n} p={p} m={m}", done, len(dimensions))
         record = claim(stratify(n, p, m))
         strata, expanded = strata + record.strata, expanded + record.expanded + record.rows.expanded
     listed = ", ".join(str(d).replace(" ", "") for d in dimensions)

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...exact.parametric.cofactors import generic_exceptional, generic_exceptional_without_feedthrough
-from ...exact.structure.kernel_rows import kernel_representation
 from ..evidence.alternatives import comparison_certificate
+from ..evidence.kept_kernels import kernel_once
 from ..evidence.pairs_by_polynomial import PairByPolynomial
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -31,7 +31,7 @@ def parametric(bench: Workbench) -> Outcome:
         dimensions += [(n, p, m) for n in range(3) for p in range(4) for m in range(3) if (n, p, m) not in dimensions]
     expanded = count = 0
     for done, (n, p, m) in enumerate(dimensions):
-        bench.progress(f"all entries indeterminate, n={n} p={p} m={m}", done, len(dimensions))
+        bench.progress(f"taking all entries as indeterminates, n={n} p={p} m={m}", done, len(dimensions))
         cases = [generic_exceptional(n, p, m)]
         cases += [generic_exceptional_without_feedthrough(n, p, m)] if 0 < m < p and m <= n else []
         expanded += sum(case.expanded for case in cases)
@@ -59,7 +59,7 @@ def words(pair: PairByPolynomial) -> str:
 
 def show(pair: PairByPolynomial) -> Iterator[Certificate]:
     """Yield certificates of what the pair is: equivalent or not, its normal rank, its zeros."""
-    kernels = kernel_representation(pair.system), kernel_representation(pair.pair)
+    kernels = kernel_once(pair.system), kernel_once(pair.pair)
     yield comparison_certificate(*kernels)
     yield make.window_ranks(kernels[1])
     yield make.finite_zeros(pair.pair)

@@ -7,8 +7,9 @@ from itertools import product
 import numpy as np
 
 from ...exact.algebra.matrices import Matrix
-from ...exact.structure.kernel_rows import column_conditions, kernel_representation
+from ...exact.structure.kernel_rows import column_conditions
 from ...exact.system.systems import ResidualSystem
+from ..evidence.kept_kernels import kernel_once
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..verdict.verdicts import Outcome, Verdict
@@ -20,7 +21,7 @@ BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
 def first_block_column(bench: Workbench) -> Outcome:
     """Is it enough that N_s annihilates the first block column of T_s(z)? The smallest system and column that say no."""
     for system in systems_in_order(BOX, lambda f: np.asarray(f.observable & f.left_invertible)):
-        kernel = kernel_representation(system)
+        kernel = kernel_once(system)
         window = kernel.lag + 1
         rows = kernel.rows_within(window)
         for entries in product((-1, 0, 1), repeat=system.n + system.p):
@@ -39,7 +40,7 @@ def _first_column_vanishes(system: ResidualSystem, z: Matrix, window: int) -> bo
     for _ in range(window - 1):
         outputs.append(system.C @ x)
         x = system.A @ x
-    for row in kernel_representation(system).rows_within(window):
+    for row in kernel_once(system).rows_within(window):
         for shift in range(window - row.degree):
             values = [row.coefficients.rows([k]) @ outputs[k + shift] for k in range(row.degree + 1)]
             if not sum(values[1:], values[0]).is_zero():

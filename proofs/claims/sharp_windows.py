@@ -10,10 +10,11 @@ from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix
 from ...exact.structure.behavior import compare
 from ...exact.structure.fault_columns import fault_space, with_pair
-from ...exact.structure.kernel_rows import KernelRepresentation, kernel_representation
+from ...exact.structure.kernel_rows import KernelRepresentation
 from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.families import adversarial, random_systems
+from ..evidence.kept_kernels import kernel_once
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
 from ..verdict.verdicts import Outcome, Verdict
@@ -26,12 +27,12 @@ def equality_as_many_faults(bench: Workbench) -> Outcome:
 
     The partner has the same (A, C) and as many faults, and is left-invertible too.
     """
-    systems = [s for _, s in adversarial() if s.n <= 6] + list(islice(random_systems(QQ, 4000, seed=13), 400 if bench.full else 80))
+    systems = [s for _, s in adversarial() if s.n <= 6] + list(islice(random_systems(QQ, 4000, seed=13), 400 if bench.full else 24))
     headline: tuple[Certificate, ...] = ()
     tried = count = 0
     for done, system in enumerate(systems):
-        bench.progress("partners that differ late", done, len(systems))
-        kernel = kernel_representation(system)
+        bench.progress("comparing partners that differ late", done, len(systems))
+        kernel = kernel_once(system)
         if kernel.normal_rank < system.m or system.m == 0 or kernel.lag == 0:
             continue
         partner = _partner(kernel)
@@ -55,7 +56,7 @@ def _partner(kernel: KernelRepresentation) -> KernelRepresentation | None:
     space, rng = fault_space(kernel, kernel.lag), random.Random(str(system))
     for _ in range(60):
         P = Matrix.of([[rng.randint(-2, 2) for _ in range(system.m)] for _ in range(space.dimension)], shape=(space.dimension, system.m))
-        other = kernel_representation(with_pair(space, P))
+        other = kernel_once(with_pair(space, P))
         alike = other.normal_rank == system.m and other.rank(kernel.lag) == kernel.rank(kernel.lag)
         if alike and compare(kernel, other).first_difference == kernel.lag + 1:
             return other

@@ -9,12 +9,12 @@ from dataclasses import replace
 import numpy as np
 
 from ...exact.algebra.matrices import column_basis
-from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import window_matrix
 from ..evidence.alternatives import PAIRS, PairEvidence, comparison_certificate
 from ..evidence.corpus import CORPUS
 from ..evidence.families import shift_registers
+from ..evidence.kept_kernels import kernel_once
 from ..evidence.parametric import inclusion_claim
 from ..evidence.questions import RANKS
 from ..evidence.search import Box, systems_in_order
@@ -75,7 +75,7 @@ def sharp(bench: Workbench) -> Outcome:
     largest = 12 if bench.full else 8
     certificates: list[Certificate] = []
     for n in range(1, largest + 1):
-        idle, driven = (kernel_representation(system) for system in shift_registers(n))
+        idle, driven = (kernel_once(system) for system in shift_registers(n))
         pair = [make.window_equality(idle, driven, n), comparison_certificate(idle, driven)]
         if pair[1]["statement"]["window"] != n + 1:
             return Outcome(Verdict.REFUTED, f"the shift registers of length {n} differ elsewhere", accepted(pair), 2)
@@ -115,7 +115,7 @@ def _smallest_pair(*, same_A_and_C: bool) -> Outcome:
 
 
 def _pair_certificates(first: ResidualSystem, second: ResidualSystem) -> Iterator[Certificate]:
-    kernels = kernel_representation(first), kernel_representation(second)
+    kernels = kernel_once(first), kernel_once(second)
     yield make.window_equality(*kernels, first.n)
     yield comparison_certificate(*kernels)
     for kernel in kernels:
@@ -129,11 +129,11 @@ def _words(record: PairEvidence) -> str:
 
 
 def _of_one(system: ResidualSystem) -> Iterator[Certificate]:
-    yield make.window_ranks(kernel_representation(system))
+    yield make.window_ranks(kernel_once(system))
 
 
 def _show(record: PairEvidence) -> Iterator[Certificate]:
-    kernels = kernel_representation(record.first), kernel_representation(record.second)
+    kernels = kernel_once(record.first), kernel_once(record.second)
     yield comparison_certificate(*kernels)
     yield make.window_ranks(kernels[0])
     yield make.window_ranks(kernels[1])

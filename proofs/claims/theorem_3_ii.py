@@ -13,8 +13,9 @@ import numpy as np
 from ...exact.algebra.matrices import Matrix, column_basis
 from ...exact.structure.behavior import compare
 from ...exact.structure.fault_columns import fault_space, with_pair
-from ...exact.structure.kernel_rows import KernelRepresentation, kernel_representation
+from ...exact.structure.kernel_rows import KernelRepresentation
 from ..evidence.alternatives import AlternativeEvidence, comparison_certificate, ranked
+from ..evidence.kept_kernels import kernel_once
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -80,7 +81,7 @@ def _smallest_bad_pair(
     Every P with the same column space gives the same pair, up to a change of the faults, so that one of them is looked at.
     """
     for system in systems_in_order(BOX, lambda f: np.asarray(f.observable & f.left_invertible)):
-        kernel = kernel_representation(system)
+        kernel = kernel_once(system)
         space, seen = fault_space(kernel, window(kernel)), set[Matrix]()
         for entries in product((-1, 0, 1), repeat=space.dimension * system.m):
             P = Matrix.of(
@@ -90,7 +91,7 @@ def _smallest_bad_pair(
             if columns.ncols < system.m or columns in seen:
                 continue
             seen.add(columns)
-            alternative = kernel_representation(with_pair(space, P))
+            alternative = kernel_once(with_pair(space, P))
             if counts(alternative) and compare(kernel, alternative).first_difference is not None:
                 certificates = [
                     comparison_certificate(kernel, alternative),
@@ -108,7 +109,7 @@ def words(record: AlternativeEvidence) -> str:
 
 
 def show(record: AlternativeEvidence) -> Iterator[Certificate]:
-    kernels = kernel_representation(record.system), kernel_representation(record.alternative)
+    kernels = kernel_once(record.system), kernel_once(record.alternative)
     yield comparison_certificate(*kernels)
     yield make.fault_space(kernels[0], fault_space(kernels[0]))
     yield make.window_ranks(kernels[1])

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..evidence.corpus import Evidence
+from ..evidence.kept_kernels import kernel_once
 from ..evidence.questions import RANKS, WINDOW_SPACES, WINDOWS
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -40,6 +40,6 @@ def solutions(bench: Workbench) -> Outcome:
 
 
 def _windows(system: ResidualSystem) -> Iterator[Certificate]:
-    yield make.window_ranks(kernel_representation(system))
+    yield make.window_ranks(kernel_once(system))
     for s in range(1, system.n + 2):
         yield make.matrix_rank("window", system, window=s)

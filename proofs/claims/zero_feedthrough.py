@@ -8,9 +8,9 @@ import numpy as np
 
 from ...exact.algebra.matrices import rank
 from ...exact.structure.fault_columns import fault_space
-from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..evidence.corpus import Evidence
+from ..evidence.kept_kernels import kernel_once
 from ..evidence.questions import OBSERVABILITY, RANKS, SPACE, ZEROS
 from ..evidence.search import Box
 from ..trust import structure_certificates as make
@@ -55,5 +55,5 @@ def _pinned(e: Evidence) -> bool:
 
 def _show(system: ResidualSystem) -> Iterator[Certificate]:
     yield from zeros(system)
-    kernel = kernel_representation(system)
+    kernel = kernel_once(system)
     yield make.fault_space(kernel, fault_space(kernel))

@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import partial
 from itertools import islice
 from typing import Any, TypeVar
 
@@ -22,11 +22,11 @@ from ...exact.algebra.fields import QQ, Field, NumberField, PrimeField
 from ...exact.algebra.matrices import rank
 from ...exact.algebra.polynomials import Poly
 from ...exact.structure.fault_columns import FaultSpace
-from ...exact.structure.kernel_rows import KernelRepresentation, kernel_representation
+from ...exact.structure.kernel_rows import KernelRepresentation
 from ...exact.system.systems import ResidualSystem
-from ..trust.structure_certificates import MOST_READ
 from .exhaustive import orbits
 from .families import adversarial, paper_example, random_systems
+from .kept_kernels import kernel_once
 from .material import Material
 from .orbits_by_stages import orbits_by_stages
 from .questions import (
@@ -82,7 +82,7 @@ class Evidence:
     def asked(self, questions: Questions) -> Evidence:
         """Return the evidence with the answers to these questions and no other; those that are not there yet are found now."""
         missing = [question for question in questions if question not in self.answers]
-        found = {**self.answers, **{question: answered(question, _kernel(self.system)) for question in missing}}
+        found = {**self.answers, **{question: answered(question, kernel_once(self.system)) for question in missing}}
         answers = {question: found[question] for question in questions}
         return Evidence(self.origin, self.system, self.weight, answers)
 
@@ -206,12 +206,6 @@ def together(parts: Sequence[Sequence[Evidence]], questions: Questions) -> tuple
     return tuple(found)
 
 
-@lru_cache(maxsize=MOST_READ)
-def _kernel(system: ResidualSystem) -> KernelRepresentation:
-    """Return the kernel representation of a system, kept as long as the checker's reading of it is: questions follow each other."""
-    return kernel_representation(system)
-
-
 def _examined(question: Question[Any], item: Source) -> list[Evidence]:
     return [examine(*item, (question,))]
 
@@ -222,9 +216,9 @@ def _sources(bench: Any) -> Iterator[Source]:
         yield "named adversarial systems", system, 1
     full = bench.full
     fields: list[tuple[Field, int]] = [
-        (QQ, 3000 if full else 180),
+        (QQ, 3000 if full else 48),
         (NumberField(("-2", "0", "1")), 300 if full else 24),  # type: ignore[arg-type]
-        (NumberField(("1", "-3", "-1", "4")), 300 if full else 24),  # type: ignore[arg-type]
+        (NumberField(("1", "-3", "-1", "4")), 300 if full else 12),  # type: ignore[arg-type]
         (PrimeField(5), 300 if full else 24),
     ]
     for field, count in fields:

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,7 +39,8 @@ def all_systems(q: int, n: int, p: int, m: int) -> Iterator[ResidualSystem]:
         yield _system(row, q, n, p, m)
 
 
-def orbits(q: int, n: int, p: int, m: int) -> list[Orbit]:
+@lru_cache(maxsize=64)  # several kinds of material are about the same small boxes
+def orbits(q: int, n: int, p: int, m: int) -> tuple[Orbit, ...]:
     """One system of every orbit over GF(q), with the number of systems it stands for."""
     from scipy.sparse import coo_matrix  # here, where it is needed: the processes that check do without scipy
     from scipy.sparse.csgraph import connected_components
@@ -54,7 +56,7 @@ def orbits(q: int, n: int, p: int, m: int) -> list[Orbit]:
     graph = coo_matrix((np.ones(len(rows), dtype=np.int8), (rows, cols)), shape=(count, count))
     _, labels = connected_components(graph, directed=False)
     _, first, sizes = np.unique(labels, return_index=True, return_counts=True)
-    return [Orbit(_system(digits[i], q, n, p, m), int(size)) for i, size in sorted(zip(first, sizes, strict=True))]
+    return tuple(Orbit(_system(digits[i], q, n, p, m), int(size)) for i, size in sorted(zip(first, sizes, strict=True)))
 
 
 def _all_digits(q: int, length: int) -> Digits:

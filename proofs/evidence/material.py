@@ -2,13 +2,15 @@
 
 Material    a kind: the items that it is made of, what is made of one, and how many of them are a task
 Wanted      raised where material is asked for that is not there yet, and is not to be made here
-made        the material of several kinds
+made        the material of several kinds, in bytes: who makes it sends them, and who reads it loads them, once for the kinds made together
+loaded      the material itself
 Folder      where material stands that was made, for the processes of this machine
 Carried     the same for machines that share no files: it goes along with the tasks that asked for it
 """
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -45,39 +47,55 @@ class Wanted(BaseException):
 Made = tuple[Any, ...] | Exception
 
 
-def made(kinds: Sequence[Material], bench: Any, jobs: int, progress: Progress) -> dict[str, Made]:
-    """Return what is made of each kind, by its name; where that failed, the first error, which is for whoever asks for this kind.
+@dataclass(frozen=True)
+class Packed:
+    """Material of the kinds with these names, which were made together: what was made of each batch of items, in bytes."""
+
+    names: tuple[str, ...]
+    batches: tuple[bytes, ...]
+
+
+def made(kinds: Sequence[Material], bench: Any, jobs: int, progress: Progress) -> list[Packed]:
+    """Return what is made of the kinds, which `loaded` reads; each kind is in one of them.
 
     Kinds that are made of the same items are made of each batch of them together, so that what is found out about an item serves them all.
     """
     alike: dict[Callable[[Any], Iterable[Any]], list[Material]] = {}
     for kind in kinds:
         alike.setdefault(kind.items, []).append(kind)
-    found: dict[str, Made] = {kind.name: () for kind in kinds}
-    tasks: list[tuple[list[Material], Sequence[Any]]] = []
-    for items_of, some in alike.items():
+    batches: list[list[bytes]] = [[] for _ in alike]
+    tasks: list[tuple[int, list[Material], Sequence[Any]]] = []
+    for k, (items_of, some) in enumerate(alike.items()):
         try:
             items = list(items_of(bench))
         except Exception as error:
-            found |= {kind.name: error for kind in some}
+            batches[k].append(_in_bytes([error] * len(some)))
             continue
-        tasks += [(some, items[start : start + some[0].together]) for start in range(0, len(items), some[0].together)]
-    parts: dict[str, list[Any]] = {kind.name: [] for kind in kinds}
-    done, total = 0, sum(len(batch) for _, batch in tasks)
-    stream = ordered(_made_of, [([kind.make for kind in some], batch) for some, batch in tasks], count=processes(jobs))
-    for (some, batch), answers in zip(tasks, stream, strict=True):
-        for kind, answer in zip(some, answers, strict=True):
-            if not isinstance(answer, Exception):
-                parts[kind.name] += answer
-            elif not isinstance(found[kind.name], Exception):
-                found[kind.name] = answer
+        tasks += [(k, some, items[start : start + some[0].together]) for start in range(0, len(items), some[0].together)]
+    done, total = 0, sum(len(batch) for _, _, batch in tasks)
+    stream = ordered(_made_of, [([kind.make for kind in some], batch) for _, some, batch in tasks], count=processes(jobs))
+    for (k, some, batch), answers in zip(tasks, stream, strict=True):
+        batches[k].append(answers)
         done += len(batch)
         progress(some[0].stage, done, total)
-    return {name: tuple(parts[name]) if before == () else before for name, before in found.items()}
+    return [Packed(tuple(kind.name for kind in some), tuple(batches[k])) for k, some in enumerate(alike.values())]
+
+
+def loaded(packed: Packed) -> dict[str, Made]:
+    """Return what was made of each kind, by its name; where that failed, the first error, which is for whoever asks for this kind."""
+    parts: list[list[Any]] = [[] for _ in packed.names]
+    errors: dict[str, Exception] = {}
+    for batch in packed.batches:
+        for name, part, answer in zip(packed.names, parts, pickle.loads(batch), strict=True):
+            if isinstance(answer, Exception):
+                errors.setdefault(name, answer)
+            else:
+                part += answer
+    return {name: errors.get(name, tuple(part)) for name, part in zip(packed.names, parts, strict=True)}
 
 
 class Folder:
-    """This is a shelf: bytes by name, in the files of a folder. `run` names the run that it belongs to."""
+    """This is a shelf: material by the name of a kind, in the files of a folder. `run` names the run that it belongs to."""
 
     def __init__(self, path: Path) -> None:
         self.path, self.run = path, str(path)
@@ -85,11 +103,16 @@ class Folder:
     def __contains__(self, name: str) -> bool:
         return (self.path / name).exists()
 
-    def __getitem__(self, name: str) -> bytes:
-        return (self.path / name).read_bytes()
+    def __getitem__(self, name: str) -> Packed:
+        found: Packed = pickle.loads((self.path / (self.path / name).read_text("utf-8")).read_bytes())
+        return found
 
-    def __setitem__(self, name: str, data: bytes) -> None:
-        (self.path / name).write_bytes(data)
+    def put(self, packed: Packed) -> None:
+        """Put it there once, with the name of its file under the name of each kind."""
+        file = f"{packed.names[0]}.pickle"
+        (self.path / file).write_bytes(_in_bytes(packed))
+        for name in packed.names:
+            (self.path / name).write_text(file, "utf-8")
 
     def part(self, names: Iterable[str]) -> Folder:
         """Return what a task takes along that needs these: the place alone, where it finds them."""
@@ -97,20 +120,21 @@ class Folder:
 
 
 class Carried:
-    """This is a shelf that holds the bytes themselves."""
+    """This is a shelf that holds the material itself."""
 
-    def __init__(self, run: str | None = None, held: dict[str, bytes] | None = None) -> None:
+    def __init__(self, run: str | None = None, held: dict[str, Packed] | None = None) -> None:
         self.run, self.held = run or uuid4().hex, {} if held is None else held
         self._parts: dict[frozenset[str], Carried] = {}
 
     def __contains__(self, name: str) -> bool:
         return name in self.held
 
-    def __getitem__(self, name: str) -> bytes:
+    def __getitem__(self, name: str) -> Packed:
         return self.held[name]
 
-    def __setitem__(self, name: str, data: bytes) -> None:
-        self.held[name] = data
+    def put(self, packed: Packed) -> None:
+        """Hold it, under the name of each kind."""
+        self.held |= dict.fromkeys(packed.names, packed)
 
     def part(self, names: Iterable[str]) -> Carried:
         """Return a shelf with these alone; tasks that need the same take the same one, so that it is sent once."""
@@ -123,8 +147,12 @@ class Carried:
 Shelf = Folder | Carried
 
 
-def _made_of(makes: Sequence[Callable[[Any], list[Any]]], batch: Sequence[Any]) -> list[list[Any] | Exception]:
-    return [_made_one_way(make, batch) for make in makes]
+def _made_of(makes: Sequence[Callable[[Any], list[Any]]], batch: Sequence[Any]) -> bytes:
+    return _in_bytes([_made_one_way(make, batch) for make in makes])
+
+
+def _in_bytes(found: object) -> bytes:
+    return pickle.dumps(found, pickle.HIGHEST_PROTOCOL)
 
 
 def _made_one_way(make: Callable[[Any], list[Any]], batch: Sequence[Any]) -> list[Any] | Exception:

@@ -19,9 +19,10 @@ from typing import Any, Generic, TypeVar
 from ...exact.algebra.matrices import Matrix
 from ...exact.algebra.polynomials import Poly
 from ...exact.structure.fault_columns import FaultSpace, fault_space
-from ...exact.structure.kernel_rows import KernelRepresentation, KernelRow, kernel_representation
+from ...exact.structure.kernel_rows import KernelRepresentation, KernelRow
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
+from .kept_kernels import kernel_once
 
 A = TypeVar("A")
 
@@ -94,7 +95,7 @@ def _rank(kernel: KernelRepresentation, certificates: Sequence[Certificate]) -> 
 
 
 def _dual_ranks(kernel: KernelRepresentation) -> Iterator[Certificate]:
-    yield make.window_ranks(kernel_representation(kernel.system.transposed()))
+    yield make.window_ranks(kernel_once(kernel.system.transposed()))
 
 
 def _left_indices(kernel: KernelRepresentation, certificates: Sequence[Certificate]) -> tuple[int, ...]:

@@ -15,10 +15,10 @@ from collections.abc import Iterator
 from random import Random
 
 from ...exact.algebra.matrices import Matrix, beside
-from ...exact.structure.fault_columns import fault_space, with_pair
-from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.structure.fault_columns import with_pair
 from ...exact.system.systems import ResidualSystem
 from ..evidence.corpus import Source, by_question
+from ..evidence.kept_kernels import space_once
 from ..verdict.workbench import Workbench
 from .facets import of_system
 
@@ -36,7 +36,7 @@ Table = list[list[str]]
 
 
 def _sources(bench: Workbench) -> Iterator[Source]:
-    for system in (*HIDDEN_ZEROS, *aimed_systems(400 if bench.full else 80)):
+    for system in (*HIDDEN_ZEROS, *aimed_systems(400 if bench.full else 16)):
         yield "aimed", system, 1
 
 
@@ -72,14 +72,14 @@ def _drawn(random: Random, lacked: str) -> ResidualSystem:
 
 def other_columns(system: ResidualSystem) -> ResidualSystem:
     """Return the system (A, Fhat P, C, Ghat P) with a random P of m columns."""
-    random, space = Random(str(system)), fault_space(kernel_representation(system))
+    random, space = Random(str(system)), space_once(system)
     rows = [[random.choice((-2, -1, 0, 0, 1, 2)) for _ in range(system.m)] for _ in range(space.dimension)]
     return with_pair(space, Matrix.of(rows, shape=(space.dimension, system.m)))
 
 
 def _with_a_column_more(random: Random, system: ResidualSystem) -> ResidualSystem:
     """The system with a member of Z as one more fault: the outputs are the same, and they do not determine the faults."""
-    basis = fault_space(kernel_representation(system)).basis
+    basis = space_once(system).basis
     weights = Matrix.of([[random.choice((-1, 0, 1, 2)) for _ in range(basis.nrows)]], shape=(1, basis.nrows))
     column = (weights @ basis).transposed()
     n, p = system.n, system.p

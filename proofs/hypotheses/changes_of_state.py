@@ -15,16 +15,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
+from functools import lru_cache
 from itertools import product
 from random import Random
 
 from ...exact.algebra.fields import PrimeField
 from ...exact.algebra.matrices import Matrix, beside, rank, right_null_space, solve_left, stacked
-from ...exact.structure.fault_columns import fault_space, with_pair
-from ...exact.structure.kernel_rows import column_conditions, kernel_representation
+from ...exact.structure.fault_columns import with_pair
+from ...exact.structure.kernel_rows import column_conditions
 from ...exact.system.systems import ResidualSystem
+from ..evidence.kept_kernels import kernel_once, space_once
 
 
+@lru_cache(maxsize=1 << 13)  # here and below: the same pairs are come upon for each hypothesis that is dropped
 def similarity(first: ResidualSystem, second: ResidualSystem) -> Matrix | None:
     """Return T (n x n) with A T = T A' and C T = C', invertible; None where there is none.
 
@@ -53,11 +56,12 @@ def similarity(first: ResidualSystem, second: ResidualSystem) -> Matrix | None:
     return None
 
 
+@lru_cache(maxsize=1 << 13)
 def columns_moved(first: ResidualSystem, second: ResidualSystem) -> Matrix | None:
     """Return T (n x n), invertible, with X T = X'; None where the two ranks differ, which they do not where the outputs are the same."""
     if first.n != second.n:
         return None
-    rows = kernel_representation(first).rows
+    rows = kernel_once(first).rows
     seen, seen_by_second = (
         stacked(Matrix.zero(s.field, 0, s.n), *(column_conditions(row.coefficients, s.A, s.C).columns(range(s.n)) for row in rows))
         for s in (first, second)
@@ -102,7 +106,7 @@ def equivalent_pairs(count: int) -> Iterator[tuple[ResidualSystem, ResidualSyste
         if i % 3:
             yield first, _dressed(random, ResidualSystem(A, F, C, G), hidden, scale)
         else:
-            space = fault_space(kernel_representation(first))
+            space = space_once(first)
             yield first, moved(with_pair(space, _entries(random, space.dimension, m)), _invertible(random, n + hidden))
 
 

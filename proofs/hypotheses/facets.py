@@ -3,6 +3,7 @@
 Facets        observable, controllable, left-invertible, stable, normal rank, lag, number of unobservable modes
 facets        those of a system
 degenerate    why a system would be a poor witness; "" where it would not
+poor          which of many integer systems would be so
 of_system     the hypotheses about one system, of subjects that have one
 nilpotent     which of many integer systems have a stable A
 flags         which of many systems meet all of some hypotheses about one system
@@ -20,10 +21,10 @@ import numpy as np
 from ...exact.algebra.fields import PrimeField
 from ...exact.algebra.matrices import rank, stacked
 from ...exact.algebra.stability import is_stable
-from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import observability_matrix, reachability_matrix
-from ..evidence.search import Facts, Flags
+from ..evidence.kept_kernels import kernel_once
+from ..evidence.search import Facts, Flags, ranks
 
 S = TypeVar("S")
 
@@ -44,7 +45,7 @@ class Facets:
 @lru_cache(maxsize=1 << 18)
 def facets(system: ResidualSystem) -> Facets:
     """What the hypotheses ask of a system, found once."""
-    kernel = kernel_representation(system)
+    kernel = kernel_once(system)
     seen = rank(observability_matrix(system, system.n))
     return Facets(
         observable=seen == system.n,
@@ -79,6 +80,12 @@ def of_system(system: Callable[[S], ResidualSystem]) -> dict[str, Callable[[S], 
         "left-invertible": lambda subject: facets(system(subject)).left_invertible,
         "A stable": lambda subject: facets(system(subject)).stable,
     }
+
+
+def poor(facts: Facts) -> Flags:
+    """Whether `degenerate` has something to say of them, where there are states, outputs and faults."""
+    columns = np.concatenate([facts.F, facts.G], axis=1)
+    return np.asarray(~facts.C.any(axis=(1, 2)) | ~facts.F.any(axis=(1, 2)) | (ranks(columns) < facts.m))
 
 
 def nilpotent(facts: Facts) -> Flags:

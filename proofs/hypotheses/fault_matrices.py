@@ -14,9 +14,9 @@ from random import Random
 from ...exact.algebra.matrices import Matrix, rank, stacked
 from ...exact.structure.behavior import compare
 from ...exact.structure.fault_columns import fault_space, with_pair
-from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import ALTERNATIVES, AlternativeEvidence, comparison_certificate, examine_alternative
+from ..evidence.kept_kernels import kernel_once, space_once
 from ..evidence.material import Material
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
@@ -99,13 +99,13 @@ def _subjects(bench: Workbench) -> Iterator[Pair]:
 
 
 def _aimed(bench: Workbench) -> Iterator[ResidualSystem]:
-    return aimed_systems(150 if bench.full else 40)
+    return aimed_systems(150 if bench.full else 12)
 
 
 def _examined(system: ResidualSystem) -> list[AlternativeEvidence]:
     """Return two random P of m columns for a system; they are bad for some and good for most."""
     found = []
-    space, rng = fault_space(kernel_representation(system)), Random(str(system))
+    space, rng = space_once(system), Random(str(system))
     for _ in range(2):
         rows = [[rng.choice((-2, -1, 0, 0, 1, 2)) for _ in range(system.m)] for _ in range(space.dimension)]
         found.append(examine_alternative("aimed", system, with_pair(space, Matrix.of(rows, shape=(space.dimension, system.m)))))
@@ -117,7 +117,7 @@ AIMED_ALTERNATIVES = Material("aimed alternatives", "trying aimed fault matrices
 
 def _longest(system: ResidualSystem, alternative: ResidualSystem) -> int:
     columns = stacked(alternative.F, alternative.G).transposed()
-    kernel = kernel_representation(system)
+    kernel = kernel_once(system)
     for s in range(kernel.lag, 0, -1):
         basis = fault_space(kernel, s).basis
         if rank(stacked(basis, columns)) == basis.nrows:
@@ -133,7 +133,7 @@ def _smallest(bench: Workbench, dropped: Sequence[str]) -> Found[Pair]:
         for system in systems_in_order(BOX, flags(set(HYPOTHESES) - set(dropped))):
             if degenerate(system) and not poor:
                 continue
-            kernel = kernel_representation(system)
+            kernel = kernel_once(system)
             for s in range(1 if "s >= lag + 1" in dropped else kernel.lag + 1, kernel.lag + 2):
                 space = fault_space(kernel, s)
                 shape = (space.dimension, system.m)
@@ -147,11 +147,11 @@ def _smallest(bench: Workbench, dropped: Sequence[str]) -> Found[Pair]:
 
 
 def _differs(pair: Pair) -> bool:
-    return compare(kernel_representation(pair.system), kernel_representation(pair.alternative)).first_difference is not None
+    return compare(kernel_once(pair.system), kernel_once(pair.alternative)).first_difference is not None
 
 
 def _show(pair: Pair) -> Iterator[Certificate]:
-    kernel, alternative = kernel_representation(pair.system), kernel_representation(pair.alternative)
+    kernel, alternative = kernel_once(pair.system), kernel_once(pair.alternative)
     yield comparison_certificate(kernel, alternative)
     yield make.fault_space(kernel, fault_space(kernel, pair.window))
     yield make.window_ranks(kernel)

@@ -15,8 +15,8 @@ from ...exact.algebra.fields import PrimeField
 from ...exact.algebra.polynomials import Poly, monic, multiply, trimmed
 from ...exact.pairs.assignment import assign_zeros
 from ...exact.pairs.polynomial import Exceptional, polynomial_at
-from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.structure.pencil import invariant_zero_polynomial
+from ..evidence.kept_kernels import kernel_once
 
 
 def every_polynomial_is_reached(pencil: Exceptional) -> bool:
@@ -36,7 +36,7 @@ def every_polynomial_is_reached(pencil: Exceptional) -> bool:
     if last is None:
         return True
     polynomial, pair = last
-    return monic(invariant_zero_polynomial(kernel_representation(pair), len(polynomial) - 1)) == monic(polynomial)
+    return monic(invariant_zero_polynomial(kernel_once(pair), len(polynomial) - 1)) == monic(polynomial)
 
 
 def wanted(pencil: Exceptional) -> Iterator[Poly]:

@@ -16,10 +16,10 @@ from itertools import chain
 
 from ...exact.algebra.matrices import Matrix, column_basis, rank, stacked
 from ...exact.structure.fault_columns import fault_space
-from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import window_matrix
-from ..evidence.alternatives import ALTERNATIVES, PAIRS, PairEvidence, comparison_certificate, examine_pair, ranked
+from ..evidence.alternatives import ALTERNATIVES, PAIRS, PairEvidence, comparison_certificate, examine_pair
+from ..evidence.kept_kernels import kernel_once, space_once
 from ..evidence.material import Material
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
@@ -150,7 +150,7 @@ def _same_model(pair: Compared) -> bool:
 
 def columns_in_space(first: ResidualSystem, second: ResidualSystem) -> bool:
     """Return whether the columns [F'; G'] of the second solve problem (11) of the first."""
-    basis = fault_space(ranked(first).kernel).basis
+    basis = space_once(first).basis
     return rank(stacked(basis, stacked(second.F, second.G).transposed())) == basis.nrows
 
 
@@ -176,7 +176,7 @@ def _equivalent(bench: Workbench) -> Iterator[Compared]:
 
 def _sources(bench: Workbench) -> Iterator[tuple[ResidualSystem, ResidualSystem]]:
     """Yield equivalent pairs whose (A, C) differ, and aimed systems with other fault columns of Z for the same (A, C)."""
-    others, aimed = (800, 100) if bench.full else (120, 25)
+    others, aimed = (800, 100) if bench.full else (80, 16)
     return chain(equivalent_pairs(others), ((system, other_columns(system)) for system in aimed_systems(aimed)))
 
 
@@ -249,21 +249,21 @@ def _smallest_outside(holds: Callable[[Compared], bool], bench: Workbench, dropp
 
 def _of_each(pair: Compared) -> Iterator[Certificate]:
     for system in pair.both:
-        kernel = kernel_representation(system)
+        kernel = kernel_once(system)
         yield make.left_invertible(kernel)
         yield make.matrix_rank("observability", system)
         yield make.matrix_rank("reachability", system)
 
 
 def _show_difference(pair: Compared) -> Iterator[Certificate]:
-    kernels = kernel_representation(pair.first), kernel_representation(pair.second)
+    kernels = kernel_once(pair.first), kernel_once(pair.second)
     yield make.window_equality(*kernels, pair.window or 0)
     yield comparison_certificate(*kernels)
     yield from _of_each(pair)
 
 
 def _show_outside(pair: Compared) -> Iterator[Certificate]:
-    kernels = kernel_representation(pair.first), kernel_representation(pair.second)
+    kernels = kernel_once(pair.first), kernel_once(pair.second)
     yield comparison_certificate(*kernels)
     yield make.fault_space(kernels[0], fault_space(kernels[0]))
     yield from _of_each(pair)

@@ -25,12 +25,12 @@ from ...exact.pairs.bad_variety import bad_set
 from ...exact.pairs.polynomial import polynomial_at
 from ...exact.pairs.witnesses import BadPair, bad_pair
 from ...exact.structure.fault_columns import with_pair
-from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.structure.pencil import infinite_zero_orders
 from ...exact.system.systems import ResidualSystem
 from ..claims.one_determinant import agrees
 from ..claims.one_determinant import show as show_pair
 from ..evidence.alternatives import comparison_certificate
+from ..evidence.kept_kernels import kernel_once
 from ..evidence.material import Material
 from ..evidence.pairs_by_polynomial import PAIRS_BY_POLYNOMIAL, PairByPolynomial, examine_by_polynomial, pencil_of
 from ..evidence.questions import RANKS
@@ -119,7 +119,7 @@ def _show(system: ResidualSystem) -> Iterator[Certificate]:
     yield make.matrix_rank("observability", system)
     bad = bad_pair(pencil)
     if isinstance(bad, BadPair):
-        pair = kernel_representation(with_pair(pencil.space, bad.verdict.P))
+        pair = kernel_once(with_pair(pencil.space, bad.verdict.P))
         yield comparison_certificate(pencil.kernel, pair)
         yield make.window_ranks(pair)
 
@@ -170,7 +170,7 @@ def _subjects(bench: Workbench) -> Iterator[Chosen]:
 
 
 def _aimed(bench: Workbench) -> Iterator[ResidualSystem]:
-    return aimed_systems(60 if bench.full else 15)
+    return aimed_systems(60 if bench.full else 6)
 
 
 def _examined(system: ResidualSystem) -> list[PairByPolynomial]:
@@ -240,7 +240,7 @@ def _smallest_pair(hypotheses: Mapping[str, Callable[[Chosen], bool]], bench: Wo
                 P = Matrix.of([list(entries[i * cols : (i + 1) * cols]) for i in range(rows)], shape=(rows, cols))
                 if rank(P) < cols and not poor:
                     continue
-                pair = kernel_representation(with_pair(pencil.space, P))
+                pair = kernel_once(with_pair(pencil.space, P))
                 count = len(polynomial_at(pencil, P)) - 1 + sum(infinite_zero_orders(pair))
                 if pair.normal_rank < cols or count != pencil.zeta:
                     subject = Chosen(examine_by_polynomial("search", "search", system, P, None, 1))

@@ -311,14 +311,18 @@ def _power(base: Matrix, k: int) -> Matrix:
 
 def _samples(found: float, node: Node) -> int:
     if not 0 <= found <= FARTHEST:
-        hint = "; guard it, or begin its windows at max(..., 0)" if found < 0 else ""
+        hint = "; guard it with implies(CONDITION, ...), or begin its windows at max(..., 0)" if found < 0 else ""
         raise Undefined(f"got {found} as the number of samples in {node.text}, expected an integer >= 0{hint}")
     return int(found)
 
 
 def _item(values: tuple[int, ...], index: float, node: Node) -> int:
-    if isinf(index) or not -len(values) <= index < len(values):
-        raise Undefined(f"got {node.text} of a list of {len(values)}; guard it with len({node.args[0].text})")
+    if isinf(index):
+        raise Undefined(f"got the index {index} in {node.text}, expected a finite one; guard it with implies(CONDITION, ...)")
+    if not -len(values) <= index < len(values):
+        least = index if index >= 0 else -index - 1
+        length = f"len({node.args[0].text})"
+        raise Undefined(f"got {node.text} of a list of {len(values)}; guard it with {length}, as in implies({length} > {least:g}, ...)")
     return values[int(index)]
 
 
@@ -357,7 +361,8 @@ def _gathered(node: Node, of: Callable[[Node], Any]) -> Any:
         case "sum":
             return sum(values)
     if not values:
-        raise Undefined(f"got {node.text} of an empty list; guard it with len({node.args[0].text})")
+        length = f"len({node.args[0].text})"
+        raise Undefined(f"got {node.text} of an empty list; guard it with {length}, as in implies({length} > 0, ...)")
     return min(values) if node.op == "min" else max(values)
 
 
@@ -376,10 +381,15 @@ def _number(node: Node, values: list[Any]) -> float:
         case _:
             left, right = values
             if right == 0 or isinf(left) or isinf(right):
-                raise Undefined(f"got {node.text} = {left} {node.op} {right}; guard it against a divisor 0 and inf")
+                raise Undefined(
+                    f"got {node.text} = {left} {node.op} {right}; guard it against a divisor 0 and inf, with implies(CONDITION, ...)"
+                )
             found = left // right if node.op == "//" else left % right
     if isnan(found) or (not isinf(found) and abs(found) > FARTHEST):
-        raise Undefined(f"got {node.text} of {' and '.join(map(str, values))}, expected an integer below 2^62 or inf; guard it")
+        raise Undefined(
+            f"got {node.text} of {' and '.join(map(str, values))}, expected an integer below 2^62 or "
+            "inf; guard it with implies(CONDITION, ...)"
+        )
     return found if isinf(found) else int(found)
 
 
@@ -418,5 +428,7 @@ def _windows(node: Node, knows: Knows, bound: Bound) -> tuple[Sequence[int], Cal
 
 def _end(found: float, node: Node) -> int:
     if isinf(found):
-        raise Undefined(f"got windows that begin or end at {found} in {shorten(node.text)}; guard it, or leave the end out")
+        raise Undefined(
+            f"got windows that begin or end at {found} in {shorten(node.text)}; guard it with implies(CONDITION, ...), or leave the end out"
+        )
     return int(found)

@@ -153,7 +153,8 @@ class _Reader:
                 hint = "; // rounds down" if isinstance(tree.op, ast.Div) else "; power(A, k) is that of a matrix"
                 raise self.bad(tree, f"got {shorten(self.words(tree))}, expected one of {' '.join(ARITHMETIC.values())}{hint}")
             case _:
-                raise self.bad(tree, f"got {shorten(self.words(tree))}, which the language has no words for")
+                known = "quantities, integers, comparisons, and, or, not, implies(a, b)"
+                raise self.bad(tree, f"got {shorten(self.words(tree))}, which the language has no words for, expected {known}")
 
     def _subjects(self, tree: ast.Attribute) -> str:
         named = [one for one in self.vocabulary.subjects if one]
@@ -174,7 +175,7 @@ class _Reader:
         if behind:
             raise self.bad(tree, f"got {name} alone, expected {' or '.join(behind)}")
         if name in self.vocabulary.subjects:
-            raise self.bad(tree, f"got {name} alone, expected a name after {name}., {name}.lag say")
+            raise self.bad(tree, f"got {name} alone, expected a quantity of it, such as {name}.lag")
         if name in SIGNATURES or name in OTHERS:
             raise self.bad(tree, f"got {name} alone, expected {name}(...)")
         raise self.unknown(tree, name, self.known())

@@ -57,10 +57,12 @@ OUTSIDE = re.compile(r"\b(?:Redirect|Extraction|Load|Cd|Drop|Declare\s+ML|Add\s+
 LIMITED = 'ulimit -t "$1"; ulimit -v "$2" 2>/dev/null; ulimit -f "$3"; shift 3; exec "$@"'
 DIGESTS = "digests.json"
 CLOSED = "Closed under the global context"
+# Where MathComp is, without loading it, which takes twenty times as long.
+PLACES = """Locate Library mathcomp.ssreflect.all_ssreflect.
+Locate Library mathcomp.algebra.all_algebra.
+"""
 # The last line is the notation of MathComp 1, for which the theory is written.
 PROBE = """From mathcomp Require Import all_ssreflect all_algebra zify ssrZ.
-Locate Library mathcomp.ssreflect.all_ssreflect.
-Locate Library mathcomp.algebra.all_algebra.
 Check [fieldType of rat].
 """
 
@@ -101,25 +103,28 @@ def found() -> Rocq | None:
 
 def installation() -> str:
     """Returns a digest of the compiler's version and of MathComp's outermost files, which name those below them by their digests. Raises
-    NoRocq."""
+    NoRocq.
+
+    MathComp is found and not loaded: what was compiled with these files, and what Rocq answered then, is so whatever lies there now, and
+    whenever coqc is asked something new, it loads the files and compares the digests that they name."""
     compiler = found()
     if compiler is None:
         raise NoRocq(f"coqc is not on the path; {INSTALL}")
-    return _probed(compiler, PROBE)
+    digest = hashlib.sha256(compiler.version.encode())
+    for place in re.findall(r"is bound to file\s+(\S+\.vo)", _probed(compiler, PLACES)):
+        digest.update(Path(place).read_bytes())
+    return digest.hexdigest()
 
 
 @cache
 def _probed(compiler: Rocq, probe: str) -> str:
+    """Returns what coqc prints. Raises NoRocq where it does not accept the probe."""
     with tempfile.TemporaryDirectory() as scratch:
         (Path(scratch) / "Probe.v").write_text(probe, "utf-8")
         try:
-            printed = _coqc(Path(scratch) / "Probe.v", OPTIONS, FILE_SECONDS)
+            return _coqc(Path(scratch) / "Probe.v", OPTIONS, FILE_SECONDS)
         except BrokenTheory as error:
             raise NoRocq(f"Rocq {compiler.version} does not find MathComp 1 with its zify ({error}); {INSTALL}") from None
-    digest = hashlib.sha256(compiler.version.encode())
-    for place in re.findall(r"has been loaded from file\s+(\S+\.vo)", printed):
-        digest.update(Path(place).read_bytes())
-    return digest.hexdigest()
 
 
 def content_hash(texts: dict[str, str]) -> str:
@@ -139,6 +144,9 @@ def compiled_theory(progress: Progress = silent, *, texts: dict[str, str] | None
     place = _place(texts)
     if _whole(place, texts):
         return place
+    compiler = found()
+    assert compiler is not None  # as `_place` has seen
+    _probed(compiler, PROBE)
     try:
         _made_private(place.parent)
     except OSError as error:

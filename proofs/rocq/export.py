@@ -222,7 +222,7 @@ def _first_column_only(s: Json, w: Json) -> Terms:
     (z,), d = _cleared([s["column"]])
     kernel = _kernel(w["kernel"])
     name, f, g = system.named("system"), f"(recorded d {natural(system.n)} f)", f"(recorded d {natural(system.p)} g)"
-    response = f"output (with_faults {name} {f} {g}) 0 (impulse _)"
+    response = f"output (with_faults {name} {f} {g}) 0 (unit_fault _)"
     return Terms(
         (
             _named("system", system),

@@ -158,7 +158,8 @@ def _first_column_only(s: Json, w: Json) -> Terms:
     return terms_over(
         system.numbers, [named("system", system), *_rows(system, kernel, w, window), _words("ws", system, window), *parts],
         call("first_column_alone", *system.sizes, window, "system rows Q ws first rest"),
-        f"word {name} {natural(window)} (output (with_faults {name} {f} {g}) 0 (impulse _)) /\\ ~ solves {name} {natural(window)} {f} {g}",
+        f"word {name} {natural(window)} (output (with_faults {name} {f} {g}) 0 (unit_fault _)) /\\ "
+        f"~ solves {name} {natural(window)} {f} {g}",
         "first_column_alone_sound",
     )  # fmt: skip
 

@@ -33,7 +33,7 @@ def recheck(progress: Progress = silent) -> str:
     theory = compiled_theory(progress)
     if shutil.which("coqchk") is None:
         return "compiled anew; coqchk is not on the path, so that Rocq's kernel alone has read it"
-    progress("Rocq: coqchk reads the theory again", 0, 1)
+    progress("Rocq: reading the theory again with coqchk", 0, 1)
     second_check(theory)
     return "compiled anew, and read again by coqchk, with MathComp below it"
 

@@ -106,6 +106,10 @@ class Statements:
         """Returns the words that the definition of a word names."""
         return self._uses[word.key]
 
+    def named(self, text: str, file: str) -> tuple[Word, ...]:
+        """Returns the words that a text of this file names."""
+        return self._named(text, file, None)
+
     def _named(self, text: str, file: str, inside: Word | None) -> tuple[Word, ...]:
         names = dict.fromkeys(TOKEN.findall(text))
         return tuple({word.key: word for name in names if (word := self._meant(name, file, inside)) is not None}.values())
@@ -249,8 +253,8 @@ def _headlines(name: str, found: Sequence[str]) -> Iterator[Headline]:
             if not (step[0].islower() if tactics else step == "Proof."):
                 raise NotProved(f"{name}: the proof of {theorem[1]} ends without Qed, or is no proof: {_short(step)}")
             tactics.append(step)
-        if (asked := next(waiting, "")) != f"Print Assumptions {theorem[1]}.":
-            raise NotProved(f"{name}: after {theorem[1]} its assumptions are asked for, and not {_short(asked) or 'nothing'}")
+        else:
+            raise NotProved(f"{name}: the proof of {theorem[1]} ends without Qed: the file ends there")
         yield Headline(theorem[1], theorem[2], " ".join(tactics[1:]), name)
 
 

@@ -22,7 +22,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ...base.progress import Progress, silent
-from .build import CLOSED, DIGESTS, BrokenTheory, NoRocq, NotProved, Poisoned, compile_file, compiled_again, compiled_theory, found
+from .build import CLOSED, DIGESTS, INSTALL, BrokenTheory, NoRocq, NotProved, Poisoned, compile_file, compiled_again, compiled_theory, found
 from .locks import held
 from .sources import sources
 from .statements import VOCABULARY, Headline, read
@@ -49,7 +49,7 @@ def check(names: Iterable[str], progress: Progress = silent) -> Theorems:
     statements = asked(wanted, texts, compiled_theory(progress), progress)
     compiler = found()
     if compiler is None:
-        raise NoRocq("coqc is gone")
+        raise NoRocq(f"coqc is no longer on the path; {INSTALL}")
     return Theorems(compiler.version, statements, {name: locks.theorems[name].sha256 for name in wanted})
 
 
@@ -74,7 +74,7 @@ def _answer(theory: Path, texts: Mapping[str, str], lines: list[str], progress: 
             return str(kept["said"])
     except (OSError, ValueError, KeyError, TypeError):
         pass
-    progress("Rocq: what the theorems rest on", 0, 1)
+    progress("Rocq: asking what the theorems rest on", 0, 1)
     _same_vocabulary(theory, texts)
     try:
         said = compile_file(theory, "Asked.v", text)

@@ -361,7 +361,7 @@ class System:
         self.A, self.F, self.C, self.G = blocks[:4]
         self.nu = sizes.get("nu", 0)
         self.inputs: Sequence[Table] = blocks[4:]
-        self.data, self.image = data, Vectors()
+        self.data, self.image, self.spanned = data, Vectors(), tuple[object, ...]()
         self.key: tuple[Any, ...] = (self.field.key, self.n, self.m, self.p, blocks[:4])
 
     def block(self, value: Json, nr: int, nc: int, where: str) -> Table:
@@ -447,13 +447,19 @@ class System:
         require(not any(self.field.seen(self, rows, self.F, self.G)), "a row does not annihilate the system")
 
     def spanned_by(self, pivots: list[int], rows: list[Vectors], w: Json, window: int | None = None) -> None:
-        """Reject unless the rows of degree below s and their shifts span the left null space of [O_s T_s]: s = window, or every s."""
+        """Reject unless the rows of degree below s and their shifts span the left null space of [O_s T_s]: s = window, or every s.
+
+        With a point it is for every s. So what was seen of the same rows there, by the same prime, is not looked at again: the certificates
+        of several windows have the same witness.
+        """
         expect("point" in w or "mix" not in w, "witness: mix goes with a point")
-        if "point" in w:
-            self.minimal(pivots, [self.field.residues(row) for row in rows], w)
-        else:
+        if "point" not in w:
             self.unhinted(pivots, rows, window)
-        self.annihilated_by(rows)
+            self.annihilated_by(rows)
+        elif (seen := (pivots, rows, self.field.modulus, *(repr(w.get(key)) for key in ("root", "point", "mix")))) != self.spanned:
+            self.minimal(pivots, [self.field.residues(row) for row in rows], w)
+            self.annihilated_by(rows)
+            self.spanned = seen
 
     def window_ranks(self, s: Json, w: Json) -> None:
         r, p = index(s["normal_rank"], "normal_rank"), self.p

@@ -203,6 +203,8 @@ class System(fields.System):
     C: Mat
     G: Mat
     inputs: Sequence[Mat]
+    powers: list[Mat] | None = None  # C A^k and the Markov parameters, which the windows of several certificates need
+    markov: list[Mat] | None = None
     walk: tuple[str, tuple[list[Mat], list[Mat], list[Mat]]] = "", ([], [], [])  # the word of x0 and v that the last certificate was about
 
     def block(self, value: core.Json, nr: int, nc: int, where: str) -> Mat:
@@ -253,9 +255,13 @@ class System(fields.System):
     def window(self, s: int, states: bool = True, faults: bool = True) -> Mat:
         """Return [O_s T_s], or one of the two."""
         core.charge(400 * s * s, 40 * s * s)
-        powers, blank = [*accumulate(repeat(self.A, s), Mat.__matmul__, initial=self.C)], scalar(self.field, self.p, self.m)
-        markov = [self.G, *(power @ self.F for power in powers)]
-        grid = [[powers[i]] * states + [markov[i - j] if j <= i else blank for j in range(s)] * faults for i in range(s)]
+        powers, markov, blank = self.powers or [self.C], self.markov or [self.G], scalar(self.field, self.p, self.m)
+        while len(powers) < s:
+            powers.append(powers[-1] @ self.A)
+        while faults and len(markov) < s:
+            markov.append(powers[len(markov) - 1] @ self.F)
+        self.powers, self.markov = powers, markov
+        grid = [[powers[i]] * states + [markov[i - j] if j <= i else blank for j in range(s * faults)] for i in range(s)]
         return assembled(self.field, grid, self.n * states + self.m * s * faults)
 
     def word(self, value: core.Json, samples: int | None = None) -> tuple[list[Mat], list[Mat], list[Mat]]:

@@ -129,7 +129,7 @@ class Claim(Shown):
 
 def load() -> tuple[Claim, ...]:
     """All claims of the ledger, in its order."""
-    return tuple(_claim(name, entry) for name, entry in _contents()["claim"].items())
+    return _claims(_text())
 
 
 def expected_without() -> dict[str, dict[str, str]]:
@@ -138,10 +138,19 @@ def expected_without() -> dict[str, dict[str, str]]:
 
 
 def _contents() -> dict[str, Any]:
-    return _parsed(resources.files(__package__).joinpath(FILE).read_text(encoding="utf-8"))
+    return _parsed(_text())
 
 
-@lru_cache(maxsize=1)  # a run asks for it with every ablation, and with every attack
+def _text() -> str:
+    return resources.files(__package__).joinpath(FILE).read_text(encoding="utf-8")
+
+
+@lru_cache(maxsize=1)  # a run asks for them with every attack
+def _claims(text: str) -> tuple[Claim, ...]:
+    return tuple(_claim(name, entry) for name, entry in _parsed(text)["claim"].items())
+
+
+@lru_cache(maxsize=1)  # and for the rest with every ablation
 def _parsed(text: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)

@@ -115,6 +115,7 @@ class ReadingResult(Shown):
         """Return the object in `verify --json`."""
         return {
             "reading": self.reading.id,
+            "ours": self.reading.repair,
             "statement": self.reading.statement,
             "hypotheses": list(self.reading.hypotheses),
             "verdict": str(self.outcome.verdict),
@@ -177,6 +178,7 @@ class ClaimResult(Shown):
             "id": self.claim.id,
             "reference": self.claim.reference,
             "as_printed": self.claim.statement,
+            "uses": list(self.claim.uses),
             "verdict": str(self.verdict),
             "expected": self.expected,
             "as_expected": self.as_expected,
@@ -289,8 +291,8 @@ class Report(Shown):
 
     >>> import faultspace as fs
     >>> report = fs.verify(["example-v"], jobs=1)
-    >>> [reading.title for reading in report.claims[0].readings][:3]
-    ['one-fault: CERTIFIED', 'two-columns: CERTIFIED', 'window-of-assumption-4: REFUTED']
+    >>> report.claims[0].readings[2].title
+    'window-of-assumption-4: REFUTED'
     >>> len(report.certificates()), report.as_expected
     (15, True)
     """

@@ -10,8 +10,8 @@ accepted      certificates, each put before the checker once more: headline cert
 
 from __future__ import annotations
 
-import pickle
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, TypeVar
@@ -22,7 +22,7 @@ from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import ALTERNATIVES, PAIRS, AlternativeEvidence, PairEvidence
 from ..evidence.corpus import CORPUS, ByQuestion, Evidence, Questions, describe, examine, together
 from ..evidence.experiments import LIMITS, LimitEvidence, examine_experiment, first_look
-from ..evidence.material import Made, Material, Shelf, Wanted, made
+from ..evidence.material import Made, Material, Packed, Shelf, Wanted, loaded, made
 from ..evidence.pairs_by_polynomial import PAIRS_BY_POLYNOMIAL, PairByPolynomial
 from ..evidence.search import Box, Facts, Flags, Known, first_of_orbits, smallest
 from ..trust.structure_certificates import Certificate, accept
@@ -73,9 +73,11 @@ class Workbench:
         """Return certified material of a kind, made or read the first time it is asked for. Raises what its making raised."""
         if kind.name not in self._made:
             if self.shelf is None:
-                self.make([kind])
+                if kind.name not in self._packed:
+                    self.make([kind])
+                self._take(self._packed[kind.name])
             elif kind.name in self.shelf:
-                self._made[kind.name] = pickle.loads(self.shelf[kind.name])
+                self._take(self.shelf[kind.name])
             else:
                 raise Wanted(kind)
         found = self._made[kind.name]
@@ -87,7 +89,7 @@ class Workbench:
         """Return the evidence on some systems with the answers to these questions, and no other; what is missing is made all at once."""
         kinds = [systems[question] for question in questions]
         self.need(*kinds)
-        missing = [kind for kind in kinds if kind.name not in self._made]
+        missing = [kind for kind in kinds if kind.name not in self._made and kind.name not in self._packed]
         if self.shelf is None and missing:
             self.make(missing)
         return together([self.material(kind) for kind in kinds], questions)
@@ -101,6 +103,10 @@ class Workbench:
         """Take this as the material of a kind."""
         self._made[kind.name] = tuple(found)
 
+    def _take(self, packed: Packed) -> None:
+        """Load what was made, but for kinds that are there already."""
+        self._made.update({**loaded(packed), **self._made})
+
     def need(self, *kinds: Material) -> None:
         """Raise `Wanted` for those of the kinds that are not on the shelf, so that they are made together and not one after the other."""
         if self.shelf is not None:
@@ -110,16 +116,21 @@ class Workbench:
 
     def make(self, kinds: Sequence[Material], shelf: Shelf | None = None) -> None:
         """Make material of these kinds, all of it at once, and put it on a shelf for other processes too where one is given."""
-        for name, found in made(kinds, self, self.jobs, self.progress).items():
-            self._made[name] = found
+        for packed in made(kinds, self, self.jobs, self.progress):
+            self._packed |= dict.fromkeys(packed.names, packed)
             if shelf is not None:
-                shelf[name] = pickle.dumps(found, pickle.HIGHEST_PROTOCOL)
+                shelf.put(packed)
 
     @property
     def corpus_in_words(self) -> str:
         """This says how the corpus was made, with counts; it is empty where no claim of the run asked for it."""
-        made = [self._made[kind.name] for kind in CORPUS.values() if kind.name in self._made]
-        return next((describe(found) for found in made if not isinstance(found, Exception)), "")
+        for kind in CORPUS.values():
+            if kind.name in self._made or kind.name in self._packed:
+                with suppress(Exception):  # the error of its making, which is for whoever asks for this kind
+                    self.material(kind)
+                if not isinstance(found := self._made[kind.name], Exception):
+                    return describe(found)
+        return ""
 
     def searched(self, box: Box) -> Iterator[Facts]:
         """Yield the systems of a box in order, one of each orbit, with what earlier searches of this run found out about them."""
@@ -145,6 +156,11 @@ class Workbench:
 
     @cached_property
     def _made(self) -> dict[str, Made]:
+        return {}
+
+    @cached_property
+    def _packed(self) -> dict[str, Packed]:
+        """This is what was made here, of which `_made` has what was asked for."""
         return {}
 
     @cached_property

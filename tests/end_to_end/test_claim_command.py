@@ -49,8 +49,11 @@ def test_the_json_is_that_of_the_contract(file: Path, capsys: pytest.CaptureFixt
 
 def test_what_is_not_as_expected_is_exit_code_1(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file.write_text(CLAIMS % 'expected = "NOT REFUTED"')
+    file.write_text('[claim.before]\nconclusion = "lag <= n"\nbox = { total = 3 }\n' + file.read_text())
     assert main(["claim", str(file), "--no-ablation"]) == 1
-    assert "false over Q: got REFUTED, expected NOT REFUTED" in capsys.readouterr().err
+    said = capsys.readouterr()
+    assert "false over Q: got REFUTED, expected NOT REFUTED" in said.err
+    assert said.out.startswith("false: REFUTED, expected NOT REFUTED"), "it is the first thing seen"
     file.write_text(CLAIMS % 'expected = "REFUTED"')
     assert main(["claim", str(file), "--no-ablation"]) == 0
 

@@ -467,9 +467,24 @@ def test_the_help_shows_arguments_as_they_are_typed(name: str) -> None:
         ("audit --timeout nan", "--timeout: got 'nan', expected a number from 0.1 on, try 60"),
         ("audit --memory inf", "--memory: got 'inf', expected a number from 0.5 on, try 4"),
         ("identify x --inputs u --outputs y --out x --dt 0", "--dt: got '0', expected a positive number, try 0.1"),
-        ("inspect", "SYSTEM...: got none, expected the argument"),
+        ("inspect", "SYSTEM...: got none, expected one on the command line"),
+        ("verify x", "got x, expected no argument there"),
     ],
 )
 def test_an_option_is_refused_as_all_input_is(line: str, words: str) -> None:
     run = call(*line.split())
     assert (run.code, run.out) == (2, "") and run.err.startswith(f"faultspace: {words} (see: faultspace {line.split()[0]} --help)")
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("verfy", "verfy: there is no such command; did you mean 'verify'?"),
+        ("verify --foo", "--foo: there is no such option"),
+        ("verify --jobs", "--jobs: got none, expected a value behind it"),
+    ],
+)
+def test_what_is_unknown_or_lacks_its_value_is_named_first(line: str, words: str) -> None:
+    """Releases of typer differ in how they tell what is near, and of which command the help is."""
+    run = call(*line.split())
+    assert (run.code, run.out) == (2, "") and run.err.startswith(f"faultspace: {words}")

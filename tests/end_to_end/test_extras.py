@@ -22,6 +22,8 @@ ABSENT = (
     "nfoursid",
     "cypari",
     "jsonschema",
+    "jinja2",
+    "markupsafe",
     "pandas",
 )
 WITHOUT = f"""
@@ -48,7 +50,7 @@ def without(*arguments: str) -> tuple[int, list[str]]:
     return done.returncode, [line for line in done.stderr.splitlines() if not PROGRESS.fullmatch(line)]
 
 
-@pytest.mark.parametrize("name", ["parquet", "mat73", "cluster", "peers"])
+@pytest.mark.parametrize("name", ["parquet", "mat73", "cluster", "peers", "report"])
 def test_a_command_that_needs_an_extra_says_which(name: str, tmp_path: Path) -> None:
     channels = ("--inputs", "u", "--outputs", "y", "--out", str(tmp_path / "out"))
     parquet, mat = tmp_path / "data.parquet", tmp_path / "data.mat"
@@ -59,6 +61,7 @@ def test_a_command_that_needs_an_extra_says_which(name: str, tmp_path: Path) -> 
         "mat73": ("identify", str(mat), *channels),
         "cluster": ("monte-carlo", "--systems", "2", "--scheduler", "tcp://127.0.0.1:9", "--out", str(tmp_path / "study")),
         "peers": ("audit", "--peer", "nfoursid"),
+        "report": ("report", "--out", str(tmp_path / "page")),
     }
     code, said = without(*asked[name])
     assert code == 2 and len(said) == 1, said

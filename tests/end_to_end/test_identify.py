@@ -65,7 +65,7 @@ def as_printed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Run, Path]:
     with pytest.MonkeyPatch.context() as patch:
         if importlib.util.find_spec("matplotlib") is not None:
             patch.setattr("matplotlib.figure.Figure.savefig", lambda figure, path, **options: Path(path).write_bytes(b"not rendered"))
-        run = call("identify", *shlex.split(listed.err.partition("for: faultspace identify ")[2].replace("\n", " ")))
+        run = call("identify", *shlex.split(listed.err.partition("find it with: faultspace identify ")[2].replace("\n", " ")))
     assert run.code == 0, run.err
     return run, folder
 
@@ -392,7 +392,7 @@ def test_without_a_fault_nothing_stands_out_of_healthy_samples(tmp_path: Path) -
 def test_healthy_samples_that_are_too_few_are_reported(tmp_path: Path, csv_file: Path) -> None:
     answer = identified(csv_file, tmp_path / "out", "--json", "--healthy-until", "200", "--order", "3").json
     assert (answer["n_v_from"], answer["healthy_until"]) in ((None, 200), ("residual alone", 200)) and answer["n_v"] != 0
-    assert any("not counted against samples 0 to 199: healthy has 200 samples" in note for note in answer["notes"])
+    assert any("faults were not counted against samples 0 to 199: healthy has 200 samples" in note for note in answer["notes"])
     valid("identify", answer)
     # The model is from these samples alone: too few for one are refused.
     refused(identified(csv_file, tmp_path / "none", "--healthy-until", "12"), "--healthy-until", "got 12 samples, too few")

@@ -7,12 +7,14 @@ pretended    puts it in the place of the run
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import io
 import json
 import re
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -27,7 +29,7 @@ from faultspace.proofs.evidence.specimens import specimens
 from faultspace.proofs.trust.structure_certificates import sha256, window_ranks
 from faultspace.proofs.verdict.ledger import Claim, Reading
 from faultspace.proofs.verdict.verdicts import ClaimResult, Outcome, ReadingResult, Report, Row, Verdict
-from tests.end_to_end.commands import call, command, example, validator
+from tests.end_to_end.commands import ROOT, call, command, example, validator
 
 ONE = Reading("as-printed", "rank [O_s T_s] = n + s m for every system and every s", ("left-invertible", "s >= n"), "REFUTED", False)
 TWO = Reading("with-zeros", "rank [O_s T_s] = n + s m - zeta for s >= lag", ("left-invertible",), "CERTIFIED", True)
@@ -93,7 +95,7 @@ def test_a_claim_is_verified_and_its_certificates_are_accepted(tmp_path: Path) -
     (claim,) = run.json["claims"]
     assert (claim["id"], claim["as_expected"]) == ("example-v", True)
     named = {c["sha256"] for reading in claim["readings"] for c in reading["certificates"]}
-    files = [path for path in tmp_path.iterdir() if path.name != "verdicts.json"]
+    files = [path for path in tmp_path.iterdir() if path.name not in ("verdicts.json", "origin.json")]
     for path in files:
         certificate = json.loads(path.read_text("utf-8"))
         validator("certificate").validate(certificate)
@@ -143,11 +145,15 @@ def test_no_column_is_lost_on_a_narrow_terminal(width: int) -> None:
 
 def test_an_unexpected_verdict_is_seen(pretended: Pretend) -> None:
     pretended(Verdict.REFUTED)
-    lines = call("verify").out.splitlines()
-    assert lines[1].split()[:3] == ["!", "claim-b", "REFUTED"], "red comes first"
-    assert "! claim-b: REFUTED (expected CERTIFIED)" in lines
-    assert "! claim-b, with-zeros: REFUTED (expected CERTIFIED); evidence for with-zeros" in lines
-    assert lines[-1].startswith("NOT as expected: claim-b; 2 claims")
+    for options in ((), ("--claim", "claim-b"), ("--verbose",)):
+        lines = call("verify", *options).out.splitlines()
+        assert lines[:2] == [
+            "! claim-b: REFUTED (expected CERTIFIED)",
+            "! claim-b, with-zeros: REFUTED (expected CERTIFIED); evidence for with-zeros",
+        ], "it is the first thing seen"
+        assert lines[-1].startswith("NOT as expected: claim-b; ")
+    row = next(line for line in call("verify").out.splitlines()[2:] if line.startswith("!"))
+    assert row.split()[:3] == ["!", "claim-b", "REFUTED"]
 
 
 def test_a_claim_is_told_in_full(pretended: Pretend) -> None:
@@ -179,12 +185,18 @@ def test_certificates_and_verdicts_are_written_whole(pretended: Pretend, tmp_pat
     assert run.code == 0 and run.json["as_expected"]
     name = f"window-ranks-{SHORT}.json"
     beside = {f"{one['kind']}-{sha256(one)[:12]}.json" for one in specimens()}
-    assert {path.name for path in out.iterdir()} == {name, "verdicts.json"} | beside
+    assert {path.name for path in out.iterdir()} == {name, "verdicts.json", "origin.json"} | beside
     written = json.loads((out / name).read_text("utf-8"))
     assert written == CERTIFICATE
     validator("certificate").validate(written)
     assert call("check", str(out / name)).code == 0
     assert json.loads((out / "verdicts.json").read_text("utf-8")) == run.json
+    origin = json.loads((out / "origin.json").read_text("utf-8"))
+    assert origin["command"] == "faultspace verify --effort quick --claim claim-a --claim claim-b" and datetime.fromisoformat(
+        origin["time"]
+    ) <= datetime.now(UTC)
+    (first, *_) = origin["checkers"]
+    assert first["sha256"] == hashlib.sha256((ROOT / "proofs" / "trust" / first["file"]).read_bytes()).hexdigest()
 
 
 def test_nothing_is_written_without_being_asked_for(pretended: Pretend, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -64,7 +64,7 @@ BAD_SYSTEMS: dict[str, tuple[Json, str]] = {
     "an unknown key": ({"H": [["1"]]}, "system: unknown key 'H', expected A, F, C, G, B, D"),
     "B without D": ({"B": [["1"]]}, "system: got only one of B and D, expected both or neither"),
     "D without B": ({"D": [["1"]]}, "system: got only one of B and D, expected both or neither"),
-    "nu without B": ({"nu": 1}, "system: got nu without B and D"),
+    "nu without B": ({"nu": 1}, "system: got nu without B and D, expected all three or none"),
     "B too tall": ({**INPUTS, "B": [["1"], ["1"]]}, "system.B: got shape 2 x 1, expected 1 x 1"),
     "D too wide": ({**INPUTS, "D": [["1", "1"], ["1", "1"]]}, "system.D: got shape 2 x 2, expected 2 x 1"),
     "nu that does not agree": ({**INPUTS, "nu": 2}, "system.B: got shape 1 x 1, expected 1 x 2"),

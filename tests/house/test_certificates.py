@@ -39,8 +39,8 @@ def test_certificates_alone_lie_among_the_certificates() -> None:
     assert {path.name for path in HEADLINES.iterdir()} == {path.name for path in HEADLINES.glob(PATTERN)} != set()
 
 
-def test_the_certificates_that_the_changelog_names_are_there() -> None:
-    words = " ".join((ROOT / "CHANGELOG.md").read_text("utf-8").split())
+def test_the_certificates_that_the_history_names_are_there() -> None:
+    words = " ".join((ROOT / "docs" / "history.md").read_text("utf-8").split())
     named = set(re.findall(r"\b[0-9a-f]{64}\b", words))
     assert named
     assert named <= {

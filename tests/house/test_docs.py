@@ -26,7 +26,7 @@ def make() -> ModuleType:
     return module
 
 
-@pytest.mark.parametrize("page", ["adversary.md", "claims.md", "hypotheses.md", "your-claims.md"])
+@pytest.mark.parametrize("page", ["adversary.md", "claims.md", "hypotheses.md", "paper-to-proof.md", "your-claims.md"])
 def test_the_tables_are_the_ledgers(make: ModuleType, page: str) -> None:
     text = (DOCS / page).read_text("utf-8")
     assert make.filled(text, make.TABLES[page]()) == text, "make it again: python docs/make.py"

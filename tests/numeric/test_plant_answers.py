@@ -174,5 +174,5 @@ def test_a_sensor_that_is_stuck_has_no_fault_space() -> None:
     drawn = record("stuck", 3.0, SETTINGS["middle"], random, False)
     found = identify(drawn.y, drawn.u, order=3, healthy=drawn.healthy)
     assert found.n_v == 1 and found.fault_space is None and found.isolation is None
-    assert any(f"no fault space: {drawn.channel} has lost variance" in note for note in found.notes)
+    assert any(f"no fault space is given: {drawn.channel} has lost variance" in note for note in found.notes)
     assert found.shift_isolation is not None and found.shift_isolation.answer.startswith(f"a sensor fault on {drawn.channel} explains")

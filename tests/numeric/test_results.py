@@ -195,7 +195,7 @@ def test_a_fault_space_draws_what_its_dimension_rests_on(chain: dict[str, Any]) 
         assert f"dimension {space.n_z}" in ax.get_legend().get_texts()[1].get_text()
     nothing = numeric.fault_space(np.random.default_rng(3).standard_normal((400, 1)), [[0.5]], [[1.0]])
     assert not nothing.meaningful
-    with pytest.raises(InvalidData, match="nothing to draw"):
+    with pytest.raises(InvalidData, match="no condition on a fault column to draw"):
         nothing.plot()
 
 

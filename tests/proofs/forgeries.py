@@ -2,6 +2,7 @@
 
     forgeries     certificates whose statement and witness come from different places, or were changed in several places at once
     false_ones    those of them that the checker accepts and the oracle denies
+    unlike        those of which a checker that remembers what it has read and seen says something else than one that does not
     Tally         how many there were, how many the checker accepted, and how many of a sample have a false statement
     main          python -m tests.proofs.forgeries COUNT [SEED]
 
@@ -15,12 +16,15 @@ from __future__ import annotations
 import copy
 import json
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
+from itertools import cycle
 from random import Random
 from typing import Any
 
 from faultspace.proofs.trust import checker
+from faultspace.proofs.trust.structure_certificates import accept
 from tests.oracle import premise_holds, truth
 from tests.proofs.examples import Certificate
 
@@ -142,8 +146,30 @@ def false_ones(rng: Random, known: Sequence[Certificate], count: int, sample: in
     return found, tally
 
 
+def unlike(rng: Random, known: Sequence[Certificate], count: int) -> list[Certificate]:
+    """Return the forged certificates of which `accept`, which keeps systems from one to the next, says something else than `verify`.
+
+    Forgeries are about few systems, and each is tried between two that are right.
+    """
+    found = list[Certificate]()
+    for right, forged in zip(cycle(known), forgeries(rng, known, count), strict=False):
+        with suppress(checker.Rejected):  # verified under an assumption
+            accept(right)
+        said = _words(lambda one: checker.verify(one).assumes, forged), _words(accept, forged)
+        if said[0] != said[1]:
+            found.append(forged)
+    return found
+
+
+def _words(check: Callable[[Certificate], Any], certificate: Certificate) -> str:
+    try:
+        return "verified under an assumption" if check(certificate) else "verified"
+    except (checker.Malformed, checker.Rejected) as error:
+        return "verified under an assumption" if str(error).startswith("verified only") else str(error)
+
+
 def main() -> int:
-    """Prints the tally and what was accepted though false; 1 where there is such."""
+    """Prints the tally, what was accepted though false, and what a checker that remembers says of as many; 1 where there is such."""
     from tests.proofs.test_mutations import every_certificate
 
     count, seed = int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 0
@@ -152,9 +178,11 @@ def main() -> int:
         print(f"{kind}: {tried} tried, {tally.accepted.get(kind, 0)} accepted")
     print(f"{count} forged, {sum(tally.accepted.values())} accepted, {len(found)} of them false;", end=" ")
     print(f"of {tally.sampled} statements {tally.false_statements} are false by the oracle")
-    for forged in found:
+    others = unlike(Random(seed), every_certificate(), count)
+    print(f"{len(others)} of which a checker that remembers says something else")
+    for forged in (*found, *others):
         print(json.dumps(forged))
-    return int(bool(found))
+    return int(bool(found or others))
 
 
 if __name__ == "__main__":

@@ -12,9 +12,9 @@ import pytest
 from faultspace.proofs.evidence.corpus import CORPUS, examine
 from faultspace.proofs.evidence.questions import RANKS
 from faultspace.proofs.evidence.search import Box, chunks
-from faultspace.proofs.hypotheses import ablations
+from faultspace.proofs.hypotheses import ablations, trajectories
 from faultspace.proofs.hypotheses.aimed import AIMED, HIDDEN_ZEROS, aimed_systems
-from faultspace.proofs.hypotheses.facets import degenerate, flags
+from faultspace.proofs.hypotheses.facets import degenerate, facets, flags, poor
 from faultspace.proofs.hypotheses.systems import gap, range_of_f, rank_formula
 from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.verdict.ablation import Ablation, Found, Proof, ablate, first_found
@@ -226,6 +226,25 @@ def test_first_looks_are_the_definitions() -> None:
             for index in range(0, len(facts.A), 199):
                 known = inspect_slowly(facts.system(index).to_json())
                 assert found[index] == known[name.replace("-", "_")], (name, facts.system(index))
+
+
+def test_the_first_look_at_a_poor_witness_is_what_is_said_of_it() -> None:
+    """Of all systems with one fault or two; that the columns depend is no reason with one fault alone unless both are zero."""
+    for facts in chunks(Box(total=4, largest_n=1, largest_m=2, largest_p=1)):
+        assert list(poor(facts)) == [bool(degenerate(facts.system(index))) for index in range(len(facts.A))]
+
+
+def test_a_look_for_trajectories_leaves_out_what_cannot_fail() -> None:
+    """With excitation kept these are left-invertible systems of lag 1 at most; without it, it is nothing but what violates what is kept."""
+    for facts in chunks(Box(total=4, largest_n=2, largest_m=1, largest_p=2)):
+        for kept in ((), (trajectories.PERSISTENT,), ("left-invertible", trajectories.FULL_ROW_RANK)):
+            looks = {poor_ones: trajectories._open_still(kept, poor_ones, facts) for poor_ones in (False, True)}
+            for index in range(0, len(facts.A), max(1, len(facts.A) // 60)):
+                system = facts.system(index)
+                known = facets(system)
+                settled = len(kept) > 0 and known.left_invertible and known.lag <= 1
+                still = not settled and (known.left_invertible or "left-invertible" not in kept)
+                assert [looks[one][index] for one in (False, True)] == [still and bool(degenerate(system)) == one for one in (False, True)]
 
 
 def test_what_a_poor_witness_is() -> None:

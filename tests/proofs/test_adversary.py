@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
 import time
 from collections.abc import Iterator
 from dataclasses import replace
@@ -14,10 +16,11 @@ import jsonschema
 import numpy as np
 import pytest
 
+from faultspace.base.errors import InvalidData
 from faultspace.exact.limits.moesp import limit
 from faultspace.exact.limits.moments import covariances
-from faultspace.proofs.adversary import engine, following
-from faultspace.proofs.adversary.attacking import Attacking, of_reading, of_row
+from faultspace.proofs.adversary import attacking, engine, following
+from faultspace.proofs.adversary.attacking import Attacking, looked_at_again, of_reading, of_row
 from faultspace.proofs.adversary.catalogue import attacks_on, catalogue, expected_of, statement_of
 from faultspace.proofs.adversary.engine import pursue
 from faultspace.proofs.adversary.float_limits import exact_experiment, float_limits
@@ -176,6 +179,28 @@ def test_a_confirmed_counterexample_decides_a_reading_and_one_that_is_not_found_
     kept = of_reading(result, claim, Attacking((old,)))
     assert kept.outcome.verdict == Verdict.CERTIFIED
     assert kept.attacks[0].trouble is not None
+
+
+def test_other_processes_check_the_records_again_as_this_one_does() -> None:
+    """What a worker finds of a record that was tampered with comes back as it is, and a target without records is none of its tasks."""
+    record = record_of(FALSE_REPAIR)
+    spoilt = record | {"witness": record["witness"] | {"point": ["0", *record["witness"]["point"][1:]]}}
+    for given in (record, spoilt):
+        attacks = looked_at_again(Attacking((given,)), [record["target"], "past-outputs.white-fault"], 2)
+        assert attacks.again == {record["target"]: checked_again(record["target"], [given])}
+        result, claim = reading_result(record["target"], Verdict.CERTIFIED)
+        assert of_reading(result, claim, attacks) == of_reading(result, claim, Attacking((given,)))
+    assert attacks.again[record["target"]][0].trouble is not None
+
+
+def test_a_record_whose_check_ends_its_process_leaves_no_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(attacking, "checked_again", _dies)
+    with pytest.raises(InvalidData, match=r"task 1 of 1 came to no end: the process that worked on it ended"):
+        looked_at_again(Attacking(None), [record_of(FALSE_REPAIR)["target"]], 2)
+
+
+def _dies(target: str, records: object) -> None:
+    os.kill(os.getpid(), signal.SIGKILL)
 
 
 def test_a_row_of_the_hypothesis_table_gives_way_too() -> None:

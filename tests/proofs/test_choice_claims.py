@@ -226,7 +226,7 @@ def test_known_choices_are_good_and_bad() -> None:
 
 REFUSED = [
     ("lagg == 1", "the nearest is lag"),
-    ("chosen == 1", "got chosen alone, expected a name after chosen."),
+    ("chosen == 1", "got chosen alone, expected a quantity of it, such as chosen.lag"),
     ("chosen.P == 1", "got 'chosen.P', expected P alone"),
     ("P == 1", "a matrix == an integer"),
     ("first.lag == 1", "a word of claims about a pair, expected one of those about a choice"),

@@ -126,7 +126,7 @@ def test_what_is_refused_is_told_in_words(text: str, words: str, more: str) -> N
 
 
 WITHOUT_VALUE = [
-    ("left_minimal_indices[1] == 0", "guard it with len(left_minimal_indices)"),
+    ("left_minimal_indices[1] == 0", "guard it with len(left_minimal_indices), as in implies(len(left_minimal_indices) > 1, ...)"),
     ("right_minimal_indices[0] == 0", "list of 0"),
     ("max(right_minimal_indices) == 0", "empty list"),
     ("n // (m - 1) == 0", "divisor 0"),
@@ -141,7 +141,9 @@ WITHOUT_VALUE = [
     ("is_zero(power(F, 2))", "square"),
     ("is_zero(I(0 - 1))", "size"),
     ("is_zero(power(A, 1000))", "exponent"),
-    ("all(gap(s) == 1 for s in windows(0, inf))", "guard it, or leave the end out"),
+    ("left_minimal_indices[-3] == 0", "as in implies(len(left_minimal_indices) > 2, ...)"),
+    ("left_minimal_indices[inf] == 0", "got the index inf in left_minimal_indices[inf], expected a finite one"),
+    ("all(gap(s) == 1 for s in windows(0, inf))", "guard it with implies(CONDITION, ...), or leave the end out"),
     ("all(gap(s) == 1 for s in windows(0, 999999))", "at most"),
     ("all(gap(s) == 1 for s in windows(0 - 1))", "number of samples"),
     ("1000000 * 1000000 * 1000000 * 1000000 == 1", "2^62"),

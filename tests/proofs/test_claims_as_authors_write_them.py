@@ -31,7 +31,11 @@ REFUSED: list[tuple[str, str, str]] = [
     ("all(rank_OT(s * 2) >= s for s in windows(0))", "system", "expected s, s + c or s - c"),
     ("all(rank_OT(s + s) >= s for s in windows(0))", "system", "expected s, s + c or s - c"),
     ("all(rank_OT(n - s) >= 0 for s in windows(0))", "system", "expected s, s + c or s - c"),
-    ("gap(n - 2) == 0", "system", "got -1 as the number of samples in gap(n - 2), expected an integer >= 0; guard it"),
+    (
+        "gap(n - 2) == 0",
+        "system",
+        "got -1 as the number of samples in gap(n - 2), expected an integer >= 0; guard it with implies(CONDITION, ...)",
+    ),
     ("delay_known - delay_unknown <= 0", "system", "of inf and inf"),
     ("n // (m - 1) <= n", "system", "guard it against a divisor 0"),
     ("rank(power(A, 100)) <= n", "system", "expected 0 to 64"),

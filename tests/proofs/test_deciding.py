@@ -13,7 +13,7 @@ import pytest
 from faultspace.base.errors import InvalidInput
 from faultspace.proofs import deciding
 from faultspace.proofs.deciding import Check, decided
-from faultspace.proofs.evidence.material import Carried, Folder, Material, Shelf, Wanted
+from faultspace.proofs.evidence.material import Carried, Folder, Material, Packed, Shelf, Wanted
 from faultspace.proofs.trust.checker import Rejected
 from faultspace.proofs.verdict.verdicts import ClaimResult, Report
 from faultspace.proofs.verdict.workbench import Workbench
@@ -42,6 +42,10 @@ def without_items(bench: Any) -> Iterator[int]:
     raise ArithmeticError("no items")
 
 
+def no_items(bench: Any) -> list[int]:
+    return []
+
+
 TWICE = Material("twice", "counting", three, twice, 2)
 REFUSED = Material("refused", "counting", three, refused, 1)
 NOTHING = Material("nothing", "counting", without_items, twice, 1)
@@ -60,10 +64,23 @@ def test_material_is_in_order_and_an_error_is_kept_for_who_asks(jobs: int, tmp_p
             reader.material(NOTHING)
 
 
+def test_kinds_made_together_are_loaded_together_by_who_asks_and_not_by_who_makes(tmp_path: Path) -> None:
+    """What was put there before stays; kinds of no items are there, and empty."""
+    alike, none = Material("alike", "counting", three, twice, 2), Material("none", "counting", no_items, twice, 2)
+    maker, reader = Workbench("quick", 1, quiet), Workbench("quick", 1, quiet, Folder(tmp_path))
+    maker.make([TWICE, alike, none], Folder(tmp_path))
+    assert not maker._made
+    assert reader.material(none) == () and list(reader._made) == ["none"]
+    first = reader.material(TWICE)
+    assert set(reader._made) == {"twice", "alike", "none"} and reader.material(TWICE) is first == reader.material(alike)
+    maker.put(alike, [5])
+    assert maker.material(TWICE) == first and maker.material(alike) == (5,)
+
+
 def test_what_is_not_on_the_shelf_is_wanted_all_at_once(tmp_path: Path) -> None:
     shelf = Folder(tmp_path)
     reader = Workbench("quick", 1, quiet, shelf)
-    shelf[TWICE.name] = pickle.dumps((1, 2))
+    shelf.put(Packed((TWICE.name,), (pickle.dumps([[1, 2]]),)))
     with pytest.raises(Wanted) as raised:
         reader.need(REFUSED, TWICE, NOTHING)
     assert raised.value.kinds == (REFUSED, NOTHING)
@@ -106,12 +123,14 @@ def test_a_task_that_asks_is_tried_again_when_that_is_there(monkeypatch: pytest.
 
 def test_what_is_carried_is_what_was_asked_for_and_is_sent_once() -> None:
     shelf = Carried()
-    shelf["one"], shelf["two"] = b"1", b"2"
+    one, two = Packed(("one",), (b"1",)), Packed(("two", "three"), (b"2",))
+    shelf.put(one)
+    shelf.put(two)
     part = shelf.part(["two"])
-    assert part.run == shelf.run and "one" not in part and part["two"] == b"2"
+    assert part.run == shelf.run and "one" not in part and part["two"] is shelf["three"] is two
     assert shelf.part({"two"}) is part and shelf.part([]) is not part
     sent = pickle.loads(pickle.dumps(part))
-    assert sent.run == shelf.run and sent["two"] == b"2"
+    assert sent.run == shelf.run and sent["two"] == two
 
 
 def test_another_run_in_the_same_process_finds_nothing_of_the_one_before() -> None:

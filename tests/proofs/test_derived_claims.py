@@ -58,7 +58,7 @@ FOLLOWS = [
     (
         "iff(left_invertible and finite_zeros == unobservable_dimension, delay_unknown < inf)",
         (),
-        ("trajectory_no_finite_zeros", "zeros_exist"),
+        ("trajectory_no_finite_zeros", "delay_any_state_exists", "zeros_exist"),
     ),
     (
         "implies(rank(F.T @ C.T) == m and 0 == finite_zeros, zeta == m)",

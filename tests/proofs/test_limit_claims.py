@@ -11,7 +11,8 @@ import pytest
 from faultspace.exact.limits.experiments import Experiment
 from faultspace.proofs.claims import assumption_2, past_outputs, proposition_1, settle_1
 from faultspace.proofs.evidence.experiments import FAMILIES, LIMITS, LimitEvidence, examine_experiment, experiments_in_order, first_look
-from faultspace.proofs.hypotheses.consistency import consistency, driven
+from faultspace.proofs.hypotheses.aimed_experiments import small_experiments
+from faultspace.proofs.hypotheses.consistency import SMALL, consistency, driven
 from faultspace.proofs.verdict.ablation import ablate
 from faultspace.proofs.verdict.ledger import expected_without
 from faultspace.proofs.verdict.verdicts import Verdict
@@ -104,6 +105,18 @@ def test_an_ablation_that_sees_no_failure_is_not_as_expected(bench: Workbench) -
     seen = [driven(record) for record in bench.limits[:: every(4)]]
     blind = ablate(bench, replace(consistency(), holds=lambda subject: True, subjects=lambda bench: seen), expected)
     assert len(blind) == 7 + 21 and not all(row.as_expected for row in blind)
+
+
+def test_a_counterexample_to_consistency_is_what_accepted_certificates_say() -> None:
+    """Not what a first look says: one that sees failures everywhere leads to no subject that the certificates do not show to fail."""
+    few = [driven(first_look(experiment)) for experiment in islice(small_experiments(), 5)]
+    small = Workbench("quick", 1, lambda stage, done, total: None)
+    for looks in (few, [replace(one, model_right=False) for one in few]):
+        small.put(SMALL, looks)
+        assert consistency().over_q(small, ("u white",)).subject is None
+        shown = consistency().over_q(small, ("v(k), u(k) uncorrelated",)).subject
+        assert shown is not None and shown.accepted >= 2 and not (shown.model_right and shown.record.inputs_right)
+    assert all(one.accepted == 0 for one in few)
 
 
 @pytest.mark.parametrize("name", FAMILIES)

@@ -116,7 +116,7 @@ def test_the_ledger_names_theorems_of_readings_alone() -> None:
 
 def test_the_readme_of_the_theorems_counts_them() -> None:
     texts = [text for name, text in sources().items() if name.startswith("Headlines")]
-    headlines = sum(len(re.findall(r"^Print Assumptions ", text, re.M)) for text in texts)
+    headlines = sum(len(re.findall(r"^Theorem ", text, re.M)) for text in texts)
     readings = [reading for claim in load() for reading in claim.readings]
     named = sum(bool(reading.theorems) for reading in readings)
     readme = THEORY.joinpath("README.md").read_text("utf-8")

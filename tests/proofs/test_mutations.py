@@ -33,7 +33,7 @@ from faultspace.proofs.trust import checker, checker_fields
 from faultspace.proofs.trust import structure_certificates as make
 from tests.oracle import premise_holds, truth
 from tests.proofs.examples import by_chain, experiments, limit_certificates, lines, stable
-from tests.proofs.forgeries import false_ones
+from tests.proofs.forgeries import false_ones, unlike
 from tests.thorough import every
 
 SQRT2 = NumberField(("-2", "0", "1"))  # type: ignore[arg-type]
@@ -251,6 +251,20 @@ def test_forged_witnesses_prove_nothing_false(monkeypatch: pytest.MonkeyPatch) -
         checker_fields.System, "unhinted", lambda *_: None
     )  # a checker without its lower bounds is fooled by the same forger
     assert false_ones(Random(count), known, 1500, sample=1)[0] != []
+
+
+def test_a_checker_that_remembers_says_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A run keeps what it read of a system, and which rows it saw to span: no forged certificate gets through by that, or is lost."""
+    count, known = int(os.environ.get("FAULTSPACE_FORGERIES", "1500")) // 2, every_certificate()
+    assert unlike(Random(count), known, count) == []
+    spanned_by = checker.System.spanned_by
+
+    def careless(self: checker.System, *args: Any) -> None:
+        if not self.spanned:
+            spanned_by(self, *args)
+
+    monkeypatch.setattr(checker.System, "spanned_by", careless)
+    assert unlike(Random(count), known, count) != []
 
 
 # Refusals of the checker, each taken out in turn: by part of its reason, with a kind where a false mutation then gets through.

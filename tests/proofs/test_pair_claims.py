@@ -361,7 +361,7 @@ REFUSED = [
     ("lag == 1", "got lag alone, expected first.lag or second.lag"),
     ("rank_OT(3) == 1", "expected first.rank_OT(s) or second.rank_OT(s)"),
     ("A == 1", "got A alone, expected first.A or second.A"),
-    ("first == second", "got first alone, expected a name after first., first.lag say"),
+    ("first == second", "got first alone, expected a quantity of it, such as first.lag"),
     ("first.lagg == 1", "the nearest is lag"),
     ("frist.lag == 1", "expected .T of a matrix, or a name after first. or second."),
     ("frist.lag == 1", "the nearest is first.lag"),

@@ -14,7 +14,7 @@ from faultspace.proofs import deciding
 from faultspace.proofs.deciding import Check, Task, Without, decided
 from faultspace.proofs.evidence import corpus, questions
 from faultspace.proofs.evidence.corpus import CORPUS, Evidence, Questions, Source, Unasked, by_question, examine
-from faultspace.proofs.evidence.material import Carried, Folder, Material, Shelf, made
+from faultspace.proofs.evidence.material import Carried, Folder, Material, Shelf, loaded, made
 from faultspace.proofs.evidence.questions import FINITE_ZEROS, INFINITE_ZEROS, OBSERVABILITY, QUESTIONS, RANKS, SPACE, Question, answered
 from faultspace.proofs.hypotheses import ablations, trajectories, windowed
 from faultspace.proofs.hypotheses.aimed import AIMED
@@ -239,7 +239,8 @@ def test_kinds_of_the_same_items_are_made_together() -> None:
             raise ValueError(f"{item} is odd")
         return [item]
 
-    found = made([kind("twice", lambda x: [x, 2 * x]), kind("odd", odd), kind("none", lambda x: [])], None, 1, silent)
+    (packed,) = made([kind("twice", lambda x: [x, 2 * x]), kind("odd", odd), kind("none", lambda x: [])], None, 1, silent)
+    found = loaded(packed)
     assert drawn == [1] and found["twice"] == (0, 0, 1, 2, 2, 4, 3, 6, 4, 8) and found["none"] == ()
     assert str(found["odd"]) == "1 is odd"
 

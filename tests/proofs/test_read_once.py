@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.structure.fault_columns import fault_space
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.trust import structure_certificates as make
@@ -60,3 +61,58 @@ def test_a_word_is_walked_again_where_another_is_stated() -> None:
     accept(spoiled(WALK, ("statement.v.3", [1])))
     with pytest.raises(Malformed):
         accept(spoiled(WALK, ("statement.v.3", [True])))
+
+
+HIDDEN = ResidualSystem.of([[0, 1], ["-1/4", 1]], [[1], [1]], [[1, 0], [0, 1]], [[0], [0]])
+OF_HIDDEN = kernel_representation(HIDDEN)
+AT_ONE = ("witness.point", 1)
+RANKS = spoiled(written(make.window_ranks(OF_HIDDEN)), AT_ONE)
+SPACES = [spoiled(written(make.fault_space(OF_HIDDEN, fault_space(OF_HIDDEN, s))), AT_ONE) for s in (1, 2, 3, None)]
+
+
+@pytest.mark.parametrize(
+    ("change", "error", "reason"),
+    [
+        (("witness.point", True), Malformed, "point"),
+        (("witness.mix", True), Malformed, "mix"),
+        (("witness.prime", 2), Rejected, "divides a denominator"),
+        (("witness.prime", 4), Rejected, "not a prime"),
+        (("witness.kernel.0.coefficients.0.0", "17"), Rejected, "annihilate"),
+        (("witness.kernel.0.pivot", 2), Rejected, "out of range"),
+    ],
+)
+def test_rows_are_looked_at_again_where_anything_about_them_differs(
+    change: tuple[str, object], error: type[Exception], reason: str
+) -> None:
+    """Rows that were seen to span are kept with the prime and the point: not for other rows, another prime or no number."""
+    for one in (*SPACES, RANKS):
+        assert one["witness"]["kernel"] == RANKS["witness"]["kernel"]
+        accept(one)
+    with pytest.raises(error, match=reason):
+        accept(spoiled(RANKS, change))
+    accept(RANKS)
+
+
+def test_rows_of_one_system_are_not_those_of_another() -> None:
+    """Both systems of a comparison are looked at, also where one of them was seen to have these rows before."""
+    other = ResidualSystem.of([[0, 1], ["-1/4", 1]], [[1], [2]], [[1, 0], [0, 1]], [[0], [0]])
+    accept(SPACES[0])
+    own = written(make.behaviour_equality(kernel_representation(HIDDEN), kernel_representation(HIDDEN)))
+    accept(own)
+    for place in ("first", "second"):
+        with pytest.raises(Rejected):
+            accept(spoiled(own, (f"statement.{place}", other.to_json())))
+
+
+@pytest.mark.parametrize("order", [(1, 2, 3, 4), (4, 3, 2, 1), (2, 4, 1, 3)])
+def test_windows_are_the_same_in_whatever_order_they_are_asked_for(order: tuple[int, ...]) -> None:
+    """Powers of A are kept from one window to the next; observability needs none of the Markov parameters."""
+    system = ResidualSystem.of([[0, 1], ["1/3", order[0]]], [[1], [1]], [[1, 0], [0, 1]], [[0], [1]])  # of each order another
+    accept(written(make.matrix_rank("observability", system)))
+    for s in order:
+        for name in ("window", "toeplitz"):
+            good = written(make.matrix_rank(name, system, window=s))
+            accept(good)
+            for wrong in (good["statement"]["rank"] - 1, good["statement"]["rank"] + 1):
+                with pytest.raises(Rejected):
+                    accept(spoiled(good, ("statement.rank", wrong)))

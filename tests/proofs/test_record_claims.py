@@ -258,7 +258,7 @@ REFUSED = [
     ("exciting", "expected exciting(s)"),
     ("exciting(u)", "which is a matrix, expected an integer"),
     ("u == 1", "a matrix == an integer"),
-    ("inputs == 1", "got inputs alone, expected a name after inputs."),
+    ("inputs == 1", "got inputs alone, expected a quantity of it, such as inputs.lag"),
     ("inputs.N == 1", "got 'inputs.N', expected N alone"),
     ("inputs.B == 1", "got 'inputs.B', expected B alone"),
     ("urank(1) == 1", "the nearest is u_rank"),

@@ -34,7 +34,7 @@ CHANGES: dict[str, tuple[str, str]] = {
     "proposition_1_white_a_c": ("(i <= k)", "(i <= k.+1)"),
     "proposition_1_coloured_a_c": ("(i <= k < 4)", "(i <= k.+1 < 4)"),
     "proposition_1_two_sided": ("(t - q <= i < t + s)", "(t - q <= i < t)"),
-    "proposition_1_two_sided_b_d": ("(n < s)", "(n <= s)"),
+    "proposition_1_two_sided_b_d": ("(O S s.-1)", "(O S s)"),
     "proposition_1_white_a_c_seen": ("(n <= q)", "(n <= q.+1)"),
     "proposition_1_white_b_d_seen": ("row_free (O S k)", "row_free (O S k.+1)"),
     "proposition_1_parametric": ("(q.-1 - j)", "(q - j)"),
@@ -207,6 +207,37 @@ CHANGES: dict[str, tuple[str, str]] = {
         "exists X, forall B' D' X', squares (rest B0 D0 X) <",
     ),
     "field_input_limit_true_AC": ("cov Q (z1 1%N) (z 1%N) = cov Q (z1 0%N) (z 0%N) -> ", ""),
+    "means_exist": ("period_average (fun=> 1 : K) 1", "period_average (fun=> 1 : K) 0"),
+    "mean_two_sided": ("uncorrelated E u v -> ", ""),
+    "mean_two_sided_b_d": ("(O S s.-1)", "(O S s)"),
+    "mean_autoregressive": ("(a <= s)", "(a <= s.+1)"),
+    "mean_past_states": ("positive E -> ", ""),
+    "mean_long_past": ("(n + r <= q)", "(n + r <= q.+1)"),
+    "filtered_inputs": ("(later 1 e) u", "e u"),
+    "mean_output_error": ("excites E n.+1 u", "excites E n u"),
+    "mean_signals_exist": ("order_of_spectrum E 2 u", "order_of_spectrum E 1 u"),
+    "mean_noise": ("uncorrelated E u w -> ", ""),
+    "mean_noise_range": ("(n + r <= q)", "(n + r <= q.+1)"),
+    "mean_noise_output_error": ("excites E n.+1 u", "excites E n u"),
+    "mean_noise_past_outputs": ("uncorrelated E u w -> ", ""),
+    "mean_past_outputs": ("knows_nothing_before E (later 1 v) v -> ", ""),
+    "white_signals_exist": ("white_noise E u, ", "white_noise E (later 1 u), "),
+    "mean_coloured_fault": ("sysG S = 0 -> ", ""),
+    "coloured_fault_exists": ("sysF S != 0 -> ", ""),
+    "mean_neither_right": ("~ (L <= O S 2)", "(L <= O S 2)"),
+    "mean_settle_1_not_both": ("(0 < q)%N -> ", ""),
+    "mean_settle_1_signals_exist": ("stable (sysA S) -> ", ""),
+    "example_v_ranks": ("minn s 2", "minn s 3"),
+    "example_v_columns": ("(2 < s)", "(2 <= s)"),
+    "example_v_controllability": ("example_root a -> ", ""),
+    "example_v_zeros": ("inverts_with_delay S 1 ", "inverts_with_delay S 2 "),
+    "example_v_data": ("N 6)", "N 5)"),
+    "example_roots_exist": ("(2%:R : 'F_23)", "(3%:R : 'F_23)"),
+    "time_averages": ("archimedean K -> ", ""),
+    "time_averages_white": ("uncorrelated E u v", "uncorrelated E u u"),
+    "time_averages_exist": ("stable (sysA S) -> ", ""),
+    "noisy_signals_exist": ("stable (sysA S) -> ", ""),
+    "mean_part_of_the_range": ("~ (O S 2 <= L)", "(O S 2 <= L)"),
 }
 
 
@@ -322,9 +353,9 @@ TINY = {
     "Vocabulary.v": "Definition one := 1.\n",
     "Proofs.v": "From faultspace Require Import Vocabulary.\nLemma good : one = 1.\nProof. reflexivity. Qed.\n",
     "Headlines.v": "From faultspace Require Import Vocabulary.\nFrom faultspace Require Proofs.\n"
-    "Theorem good : one = 1.\nProof. exact Proofs.good. Qed.\nPrint Assumptions good.\n",
+    "Theorem good : one = 1.\nProof. exact Proofs.good. Qed.\n",
 }
-BAD = "Theorem bad : one = 2.\nProof. exact Proofs.bad. Qed.\nPrint Assumptions bad.\n"
+BAD = "Theorem bad : one = 2.\nProof. exact Proofs.bad. Qed.\n"
 
 
 def tiny(proofs: str = "", headlines: str = "") -> dict[str, str]:

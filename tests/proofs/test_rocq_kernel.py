@@ -61,12 +61,28 @@ def test_without_rocq_it_is_told_what_to_install(monkeypatch: pytest.MonkeyPatch
         rocq_build.compiled_theory()
 
 
-def test_a_mathcomp_that_is_not_there_is_no_broken_theory(monkeypatch: pytest.MonkeyPatch) -> None:
-    if rocq_build.found() is None:
-        pytest.skip(rocq_build.INSTALL)
-    monkeypatch.setattr(rocq_build, "PROBE", "From nowhere Require Import nothing.\n")
+@pytest.mark.parametrize("question", ["PLACES", "PROBE"])
+def test_a_mathcomp_that_is_not_there_is_no_broken_theory(cache: Path, monkeypatch: pytest.MonkeyPatch, question: str) -> None:
+    """It is not there at all, or it is another one: both are said before anything is compiled."""
+    monkeypatch.setattr(rocq_build, question, "From nowhere Require Import nothing.\n")
     with pytest.raises(rocq_build.NoRocq, match="does not find MathComp"):
-        rocq_build.installation()
+        rocq_build.compiled_theory(texts=TINY)
+    assert not list(cache.iterdir())
+
+
+def test_another_mathcomp_has_another_place(cache: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """The bytes of both outermost files count; MathComp is not loaded for it, so that a look at what is there takes little."""
+    ours = rocq_build.installation()
+    compiler = rocq_build.found()
+    assert compiler is not None
+    said = rocq_build._probed(compiler, rocq_build.PLACES)
+    places = [Path(line) for line in said.split() if line.endswith(".vo")]
+    assert [one.name for one in places] == ["all_ssreflect.vo", "all_algebra.vo"]
+    for place in places:
+        other = tmp_path / place.name
+        other.write_bytes(place.read_bytes() + b"\n")
+        monkeypatch.setattr(rocq_build, "_probed", lambda compiler, probe, a=place, b=other: said.replace(str(a), str(b)))
+        assert rocq_build.installation() != ours
 
 
 @pytest.mark.skipif(rocq_build.found() is None or COQCHK is None, reason=rocq_build.INSTALL)

@@ -139,7 +139,7 @@ def test_a_headline_or_word_that_comes_or_goes_is_noticed() -> None:
     with pytest.raises(NotProved, match="the headline theorem_1 has no lock"):
         held(TEXTS, fewer)
     start = TEXTS["Headlines.v"].index("Theorem theorem_1 ")
-    end = TEXTS["Headlines.v"].index("Print Assumptions theorem_1.\n") + len("Print Assumptions theorem_1.\n")
+    end = TEXTS["Headlines.v"].index("Qed.\n", start) + len("Qed.\n")
     with pytest.raises(NotProved, match="the headline theorem_1 is locked and is not there"):
         held({**TEXTS, "Headlines.v": TEXTS["Headlines.v"][:start] + TEXTS["Headlines.v"][end:]})
     with pytest.raises(NotProved, match=r"the lock of theorem_1 is not the SHA-256"):

@@ -8,9 +8,9 @@
     trouble_documents       that of the kinds of trouble
     main                    `python -m faultspace.numeric.audit.making --out DIR` writes the files
 
-The bounds are those of the problem, not of one program. A model: the largest over two ways to compress (QR, Gram) and two regressions for B
-and D, each a worst case to first order. A fault space: the kernel rows' conditioning. A zero: its condition number as an eigenvalue of the
-pencil times the rounding of a backward stable algorithm [GVL13].
+The bounds are those of the problem, not of one program. That of a model is the largest over two ways to compress (QR, Gram) and two
+regressions for B and D, each a worst case to first order. That of a fault space is the conditioning of the kernel rows. That of a zero is
+its condition number as an eigenvalue of the pencil times the rounding of a backward stable algorithm [GVL13].
 """
 
 from __future__ import annotations

@@ -65,5 +65,5 @@ class Board:
     def from_json(data: Any) -> Board:
         """Return the board that `to_json` wrote. Raises InvalidData for another format."""
         if not isinstance(data, dict) or data.get("format") != FORMAT:
-            raise InvalidData(f"a scoreboard has the format {FORMAT!r}")
+            raise InvalidData(f"got no scoreboard, expected the scoreboard.json of the format {FORMAT!r} that boards.py writes")
         return Board(tuple(Audited(**{**one, "tallies": tuple(Tally(**row) for row in one["tallies"])}) for one in data["audited"]))

@@ -34,7 +34,7 @@ class Isolated:
         try:
             self.functions: tuple[str, ...] = tuple(self._load())
         except Broken as failure:
-            raise InvalidData(f"adapter {name}: loading it failed: {failure}") from None
+            raise InvalidData(f"adapter {name}: it cannot be loaded ({failure}); importing it in Python shows why") from None
 
     def __enter__(self) -> Self:
         return self

@@ -103,7 +103,9 @@ class Program:
             )
         except OSError as error:
             self._errors.close()
-            raise InvalidData(f"the program {self.command} cannot be started: {error.strerror or error}") from None
+            raise InvalidData(
+                f"the program {self.command} cannot be started ({error.strerror or error}), expected a command that can be run here"
+            ) from None
         for stream in (self._process.stdin, self._process.stdout):
             assert stream is not None
             os.set_blocking(stream.fileno(), False)
@@ -151,14 +153,16 @@ class Program:
         """Return the processes that carry the mark, wherever they are.
 
         Those that come while others are looked at are looked at, too, until there are no new ones: of a chain, in which each process starts
-        the next one and ends, one is always met. Who was there before the program, or carried no mark once, is not looked at again.
+        the next one and ends, one is always met. Who was there before the program, or carried no mark once, is not looked at again. One
+        that is becoming another program has no environment for a moment, and is looked at again for as long as a glance.
         """
-        found, met = set[psutil.Process](), set[int]()
+        found, met, deadline = set[psutil.Process](), set[int](), time.monotonic() + GLANCE
         while born := set(psutil.pids()) - self._strangers - met:
             for number in born:
                 try:
                     one = psutil.Process(number)
                     environment = one.environ()
+                    becoming = not environment and time.monotonic() < deadline and _of_a_user(one)
                 except (psutil.Error, OSError):
                     self._strangers.add(number)
                     continue
@@ -166,7 +170,7 @@ class Program:
                     found.add(one)
                 if environment and one not in found:
                     self._strangers.add(number)
-                else:  # without any environment it may be about to become another program
+                elif not becoming:
                     met.add(number)
         return found
 
@@ -207,6 +211,11 @@ class Program:
             known = {one.value: one.name for one in Signals}
             how = f" ({known.get(-process.returncode, f'signal {-process.returncode}')})"
         return how + (f"; it said: {words}" if words else "")
+
+
+def _of_a_user(process: psutil.Process) -> bool:
+    """Say whether it is no zombie and no thread of the kernel, which have no environment at all."""
+    return process.status() != psutil.STATUS_ZOMBIE and 2 not in (process.pid, process.ppid())
 
 
 def _lives(process: psutil.Process) -> bool:

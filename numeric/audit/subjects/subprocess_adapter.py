@@ -57,7 +57,9 @@ class Exec:
         try:
             words = shlex.split(command) if isinstance(command, str) else list(command)
         except ValueError as error:
-            raise InvalidData(f"the program {command!r}: {error}") from None
+            raise InvalidData(
+                f"the program {command!r} cannot be split into words ({error}), expected a command as a shell takes it"
+            ) from None
         if not words:
             raise InvalidData("got no program, expected a command such as 'octave-cli --quiet adapter.m'")
         self._program = Program(words, limits)
@@ -68,7 +70,7 @@ class Exec:
             raise InvalidData(f"the program {self._program.command} does not speak the protocol: {failure}") from None
         if not isinstance(offered, list) or any(name not in FUNCTIONS for name in offered):
             self.close()
-            raise InvalidData(f"the program offers {offered}: expected a list of some of {', '.join(FUNCTIONS)}")
+            raise InvalidData(f"the program offers {shorten(offered)}, expected a list of some of {', '.join(FUNCTIONS)}")
         for name in offered:
             setattr(self, name, partial(self._call, name))
 

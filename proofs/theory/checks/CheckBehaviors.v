@@ -2,7 +2,8 @@
     ever, by kernel rows which both obey and which are all there are; or that they differ, by a word of one that a kernel row of the other
     denies. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum ssrint
+  rat matrix.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import Vocabulary Basics Infinite.
 From faultspace Require Import CertificatesVocabulary Lists KernelRows ListedSystems CheckRows CheckRanks.

@@ -1,7 +1,8 @@
 (** Faults of a concrete system over the rational numbers that cannot be seen, by a trajectory with zero output for ever; and the delay with
     which the first fault is determined, by a left inverse and by a trajectory with zero output on one sample less. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg poly ssrnum
+  ssrint rat matrix.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import Vocabulary Basics.
 From faultspace Require Import CertificatesVocabulary Lists KernelRows ListedSystems CheckRows.

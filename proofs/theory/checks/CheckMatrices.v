@@ -1,7 +1,8 @@
 (** Ranks of named matrices of a concrete system over the rational numbers: O_n, T_s, [O_s T_s], reachability, and of a recorded trajectory
     the Hankel matrix of its outputs and the excitation [X V_s]. Each is computed on integers up to nonzero factors of rows and columns. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice div fintype finfun bigop order zmodp ssralg finalg poly
+  ssrnum ssrint rat matrix mxalgebra fraction.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import Vocabulary Basics.
 From faultspace Require Import Stacks CertificatesVocabulary Lists ListedSystems TableRank.

@@ -1,6 +1,11 @@
-(** Kernel rows seen to be a minimal basis modulo l, prime or not: then no window has a smaller rank than they say. *)
+(** Kernel rows seen to be a minimal basis modulo l, prime or not: then no window has a smaller rank than they say.
+
+        col_over K k u == the list u as a column over K
+    row_over K l p L c == a kernel row, as columns over K
+            pivot_of a == the output in which row a has its pivot *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop prime zmodp ssralg finalg poly ssrint
+  matrix mxalgebra fraction.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import Vocabulary CertificatesVocabulary Lists ListedSystems SeenBasis BasisByStates SeenRows.
 From faultspace Require Import Elimination IntegralWindows.

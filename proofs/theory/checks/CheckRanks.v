@@ -1,7 +1,8 @@
 (** Ranks of all windows of a concrete system over the rational numbers: kernel rows bound them from above, words of n + 1 samples from
     below; where these meet at s = n + 1, they meet at every s. And left-invertibility from words alone. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset order
+  generic_quotient perm zmodp countalg ssralg finalg poly polydiv ssrnum ssrint rat matrix mxalgebra mxpoly vector fraction interval.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import Vocabulary Gap Balance Lag Proposition3 NormalRank.
 From faultspace Require Import CertificatesVocabulary Independence KernelRows Elimination IntegralWindows CheckRows CheckMinimal.

@@ -2,7 +2,8 @@
     distinct pivots, say) and annihilate a system: the bound from above on the ranks of all windows. Words whose outputs are the identity at
     some samples, modulo some l > 1: the bound from below on the rank of one window. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path fintype finfun bigop order zmodp ssralg finalg poly
+  ssrnum ssrint rat matrix mxalgebra.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import Vocabulary Windows Stacks CertificatesVocabulary Lists Independence KernelRows ListedSystems IntegralWindows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

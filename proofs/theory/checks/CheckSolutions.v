@@ -2,7 +2,8 @@
     degrees of the kernel rows: where the rows are all there are, they are the common zeros of the demands of these rows, and a basis is
     right once it vanishes on the demands and has as many vectors as their rank leaves. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg poly ssrnum
+  ssrint rat matrix mxalgebra fraction.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import Vocabulary Basics Windows.
 From faultspace Require Import CertificatesVocabulary Lists KernelRows ListedSystems TableRank.
@@ -12,7 +13,7 @@ Import GRing.Theory.
 Local Open Scope ring_scope.
 
 (** The column z = (f, g), integers over d: the demands at time 0 accept it, some other one does not. *)
-Definition impulse (K : fieldType) k : 'rV[K]_1 := if k is 0%N then 1%:M else 0.
+Definition unit_fault (K : fieldType) k : 'rV[K]_1 := if k is 0%N then 1%:M else 0.
 Definition check_first_column n m p s l (L : listed) rows lower (d : Z) (f g : vector) : bool :=
   let z := joined n (f, g) in
   [&& meets n m p s l L rows lower, shorter s (kept s rows lower), d != Z0, size z == (n + p)%N,
@@ -132,15 +133,15 @@ Qed.
 Lemma impulse_satisfies rows s (f : 'rV[rat]_n) (g : 'rV[rat]_p) : well_formed n m p L -> annihilates (meant_rows p rows) S ->
   (forall row, row \in rows -> (0 < size row.2)%N ->
     f *m column n (head ([::], [::]) (demands L row.2).2).1 + g *m column p (head ([::], [::]) (demands L row.2).2).2 = 0) ->
-  satisfies (meant_rows p rows) s (output (with_faults S f g) 0 (impulse _)).
+  satisfies (meant_rows p rows) s (output (with_faults S f g) 0 (unit_fault _)).
 Proof.
 move=> wf ann h c [|j] c_in _; last first.
-  rewrite (_ : relation c _ = relation c (output S (state (with_faults S f g) 0 (impulse _) j.+1) (fun=> 0))); first exact: ann.
+  rewrite (_ : relation c _ = relation c (output S (state (with_faults S f g) 0 (unit_fault _) j.+1) (fun=> 0))); first exact: ann.
   by apply: eq_bigr => k _; rewrite output_shift -(output_free S f g); congr (_ *m _); apply: output_ext.
 case/mapP: c_in => row row_in ->; have e0 := den_neq0 wf; set cw := (weighted (den L) row.2).2; set Z := with_faults S f g.
 have scw : size cw = size row.2 := weighted_size L row.2.
-have same : relation (columns p row.2) (fun k => output Z 0 (impulse _) (0 + k)) =
-    relation (columns p row.2) (output Z 0 (fun j => ratn (den L) ^- j *: impulse _ j)).
+have same : relation (columns p row.2) (fun k => output Z 0 (unit_fault _) (0 + k)) =
+    relation (columns p row.2) (output Z 0 (fun j => ratn (den L) ^- j *: unit_fault _ j)).
   by apply: eq_bigr => k _; congr (_ *m _); apply: output_ext => -[|i] _ /=; rewrite ?expr0 ?invr1 ?scale1r ?scaler0.
 apply/eqP; rewrite same -(inj_eq (scalerI (expf_neq0 (size row.2) e0))) -(relation_scaled wf) -/cw scaler0 relation_horner mul0mx add0r.
 rewrite size_map scw; case: (posnP (size row.2)) => [->|nonempty]; first by rewrite big_ord0.
@@ -151,7 +152,7 @@ Qed.
 
 Theorem first_column_sound s l rows lower d f g : check_first_column n m p s l L rows lower d f g ->
   let Z := with_faults S (recorded d n f) (recorded d p g) in
-  word S s (output Z 0 (impulse _)) /\ ~ solves S s (recorded d n f) (recorded d p g).
+  word S s (output Z 0 (unit_fault _)) /\ ~ solves S s (recorded d n f) (recorded d p g).
 Proof.
 case/and5P=> ok short d0 /eqP sz /andP[/allP first /hasP[dem dem_in seen]] /=.
 have [wf _ _ _] := meets_sound ok; have [ann whole] := kept_rows ok.

@@ -1,6 +1,12 @@
 (** Kernel rows c_0, ..., c_mu of a system over a field, here columns, with the costates of Horner's rule: polynomial columns in the kernel
-    of the pencil. Where they are seen to be a minimal basis by their states (BasisByStates.v), they give the ranks of all windows. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+    of the pencil. Where they are seen to be a minimal basis by their states (BasisByStates.v), they give the ranks of all windows.
+
+           passes S c == the row c vanishes on all trajectories of S, by Horner's rule
+    coefficient S c k == [- X_k; N_k], the coefficient of the row's column at q^k
+        column_of S c == that column, [- X; N], of polynomials
+       columns_of S c == the matrix of the columns of the rows c *)
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra fraction.
 From faultspace Require Import Vocabulary PolynomialKernel Annihilator SeenBasis BasisByStates ListedSystems.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

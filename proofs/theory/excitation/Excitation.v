@@ -1,7 +1,7 @@
 (** From the model to data. The Hankel matrix R_s of a measured output is the window times [X V_s], the states and fault windows behind
     it. So where [X V_s] has full rank, R_s has the row space of [O_s T_s], and ranks, gap and problem (11) may be computed from the
     data. The exact condition is weaker: the rows of [X V_s] together with the kernel of the window must span everything. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Gap Proposition3.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

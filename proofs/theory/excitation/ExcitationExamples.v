@@ -1,7 +1,12 @@
 (** Data that do not excite. A periodic or geometric output has Hankel matrices of bounded rank, so its rank gap vanishes though the
     system is left-invertible: full rank of [X V_s] at the same s is not enough for rank R_(s+1) - rank R_s = m, and a fault v constant
-    or v = 2^k breaks the gap. All on the system r(k) = (v(k-1), v(k)) of Problem11.v, over any field. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+    or v = 2^k breaks the gap. All on the system r(k) = (v(k-1), v(k)) of Problem11.v, over any field.
+
+    alternating == the faults 1, 0, 1, 0, ...
+    geometric c == the faults c, c^2, c^3, ...
+     pulse_at t == the fault that is 1 at time t and else 0
+      idle_mode == a state with A = 1 that no fault moves, seen beside the fault *)
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Places Balance Proposition3.
 From faultspace Require Import Problem11 Excitation WeakExcitation.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
@@ -100,22 +105,22 @@ have he M t : hankel M t r = hankel M t (output S 1%:M (geometric 1)).
 by rewrite !he.
 Qed.
 
-(** An impulse is persistently exciting of every order. *)
-Definition impulse (t k : nat) : 'rV[K]_1 := if k == t then 1%:M else 0.
+(** An pulse_at is persistently exciting of every order. *)
+Definition pulse_at (t k : nat) : 'rV[K]_1 := if k == t then 1%:M else 0.
 
-Lemma impulse_persistent t : persistently_exciting t.+1 t.+1 (impulse t).
+Lemma pulse_at_persistent t : persistently_exciting t.+1 t.+1 (pulse_at t).
 Proof.
 rewrite /persistently_exciting -sub1mx -sum_places; apply: summx_sub => k _; apply: submx_trans (submxMl _ _) _.
 have tk : (t - k < t.+1)%N by rewrite ltnS leq_subr.
-suff -> : place K 1 k = row (Ordinal tk) (hankel t.+1 t.+1 (impulse t)) by apply: row_sub.
-rewrite -[LHS]mul1mx mul_place rowK; apply: samples_ext => j jt; rewrite /impulse /=.
+suff -> : place K 1 k = row (Ordinal tk) (hankel t.+1 t.+1 (pulse_at t)) by apply: row_sub.
+rewrite -[LHS]mul1mx mul_place rowK; apply: samples_ext => j jt; rewrite /pulse_at /=.
 by have -> : (t - k + j == t)%N = (j == k)%N; first by rewrite -[X in _ == X](subnK (ltn_ord k : (k <= t)%N)) eqn_add2l.
 Qed.
 
 (** A mode that no fault reaches and that x(0) = 0 does not excite: [X V_s] never has full rank, and the gap is right all the same. *)
 Definition idle_mode : system K 1 1 1 := System 1%:M 0 1%:M 1%:M.
 
-Theorem excitation_is_not_necessary s : (0 < s)%N -> let v := impulse s.+1 in let r := output idle_mode 0 v in
+Theorem excitation_is_not_necessary s : (0 < s)%N -> let v := pulse_at s.+1 in let r := output idle_mode 0 v in
   (forall N, ~~ row_full (excitation idle_mode 0 v N s.+1)) /\
   \rank (hankel (1 + s.+2) s.+1 r) = (\rank (hankel (1 + s.+2).+1 s r) + 1)%N.
 Proof.
@@ -126,7 +131,7 @@ split=> [N|].
   move=> /(congr1 (mulmx D)); rewrite mulmxA full mul1mx mulmx0 -[X in _ = X]col_mx0 => /eq_col_mx[/matrixP/(_ 0 0)/eqP].
   by rewrite !mxE oner_eq0.
 have linv : left_invertible idle_mode by move=> w z k; have := z k; rewrite /output idle mul0mx add0r mulmx1.
-apply: persistency_gap => //; first exact: impulse_persistent.
+apply: persistency_gap => //; first exact: pulse_at_persistent.
 by apply/gap_left_invertible.
 Qed.
 

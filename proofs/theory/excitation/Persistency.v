@@ -2,7 +2,8 @@
     then the rows of [X V_s] span all pairs of a state that the faults and x(0) can reach and of s faults, controllable or not. Idea:
     what annihilates these rows annihilates them at later times, which by the monic relation of A gives an annihilator of n + s faults
     alone; its coefficients are zero, the last ones first. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
+  zify.
 From faultspace Require Import Vocabulary Basics Places Reachable.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -1,7 +1,8 @@
 (** States restricted to a subspace U that A leaves in place and that contains the rows of F, as the states do that faults can reach. A
     monic polynomial of A, applied to sequences, moves every initial state into U; so what a fault pair (f, g) does from rest is
     possible in S as soon as it is possible with initial states in U. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra mxpoly.
 From faultspace Require Import Vocabulary Basics Gap Proposition3.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

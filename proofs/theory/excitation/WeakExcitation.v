@@ -2,7 +2,7 @@
     leaves U in place and U contains the rows of F: then problem (11) computed from the data is right from s = n + 1 on (or from one
     past the last change of the gap), and so is the gap of a left-invertible system from lag on. So a mode that the faults never reach
     and that x(0) does not excite changes neither. Persistency of excitation of v, of order n + s, is enough. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Gap Proposition3 Lag SharpWindows.
 From faultspace Require Import Problem11 Excitation Reachable Persistency.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,8 +1,8 @@
 (** A canonical form. For fixed (A, C) the solution space of problem (11) at any one window s >= n + 1 determines the behaviour, and is
     determined by it; left-invertibility is not needed. So whatever names a row space names the class of equivalent fault matrices:
     MathComp's <<Z>>, or the reduced row echelon form, which is unique. *)
-From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Infinite Theorem1 Solutions.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.
+From faultspace Require Import Vocabulary Basics Windows Infinite SharpWindows Solutions.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -27,14 +27,14 @@ Definition defect (z : 'rV[K]_(n + p)) := mxvec (T (faults z) s *m cokermx (wind
 Lemma defect_linear : linear defect.
 Proof. by move=> a y z; rewrite /defect T_linear mulmxDl -scalemxAl linearP. Qed.
 
-Definition solution_space : 'M[K]_(n + p) := kermx (lin1_mx (Linear defect_linear)).
+Definition solution_space : 'M[K]_(n + p) := kermx (lin1_mx defect).
 
 Theorem solution_spaceP : spans_solutions S s solution_space.
 Proof.
 move=> f g; split=> [sol | /sub_kermxP].
-  apply/sub_kermxP; rewrite mul_rV_lin1 /= /defect row_mxKl row_mxKr.
+  apply/sub_kermxP; rewrite (mul_lin1 _ defect_linear) /defect row_mxKl row_mxKr.
   by move: sol; rewrite /solves submxE => /eqP ->; rewrite linear0.
-by rewrite mul_rV_lin1 /= /defect row_mxKl row_mxKr => /eqP; rewrite mxvec_eq0 -submxE.
+by rewrite (mul_lin1 _ defect_linear) /defect row_mxKl row_mxKr => /eqP; rewrite mxvec_eq0 -submxE.
 Qed.
 
 End SolutionSpace.

@@ -2,7 +2,7 @@
     of S' its fault columns (F', G') solve problem (11) for S, on every window. For a linear map T0 takes a state of S' to one of S with
     the same free response, up to faults of S from rest, and this is all that problem (11) asks. T0 may be changed by zero states of S;
     a state goes to a zero state only if it is one; and both systems have zeta of them, so T0 can be made invertible. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Chain Trajectory ClosedForm.
 From faultspace Require Import SolutionCount.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

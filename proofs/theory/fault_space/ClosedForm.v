@@ -1,7 +1,7 @@
 (** The solutions of problem (11) in closed form, for every system and every window s >= n + 1: with U = W + V, W the limit of the states
     that can be reached silently, V the states that can hold the output at zero, they are the (f, g) with f = v F + x A + u and
     g = v G + x C, x and u in U. Those with g = 0 are exactly U. Neither left-invertibility nor observability is needed. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Chain Problem11 Kick CanonicalForm Trajectory ZeroFeedthrough.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

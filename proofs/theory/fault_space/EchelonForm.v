@@ -1,7 +1,8 @@
 (** The reduced row echelon form is unique, so it names the class of equivalent fault matrices: for fixed (A, C), two systems have the
     same behaviour iff the reduced echelon forms of their solution spaces of problem (11), at any window s >= n + 1, are the same
     matrix. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
+  vector.
 From faultspace Require Import Vocabulary CanonicalForm.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

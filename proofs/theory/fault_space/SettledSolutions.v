@@ -1,6 +1,7 @@
 (** When problem (11) has reached its limit: exactly from lag + 1 samples on, for every system. With as many independent outputs as faults,
     normal rank p, that is every window of at least one sample, and everything is a solution. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
+  vector.
 From faultspace Require Import Vocabulary Lag Problem11 CanonicalForm SolutionCount.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -3,7 +3,8 @@
     Idea: the system with all solutions at s as faults has the same words of s samples, hence the same gaps before s. In it, a state u that
     solves the problem without feedthrough is reached silently at all times; W_(s-1) consists of these; and of the silent pairs (x, v)
     just those with such an x can be brought to zero. So the balance of dimensions of one silent step says it all. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
+  vector zify.
 From faultspace Require Import Vocabulary Basics Windows Chain Infinite Gap Balance Lag Problem11 Kick Solutions.
 From faultspace Require Import CanonicalForm ZeroFeedthrough ClosedForm.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

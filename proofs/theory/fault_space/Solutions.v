@@ -1,6 +1,7 @@
 (** Solutions of problem (11) are superposed: the behaviour of a pair (F, G) is included in that of S iff all its rows are solutions,
     iff it is a combination P Z of a matrix Z whose rows span the solutions. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset
+  generic_quotient perm zmodp ssralg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

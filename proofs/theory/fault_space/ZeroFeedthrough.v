@@ -1,7 +1,7 @@
 (** Without feedthrough (G = 0) and left-invertible: all solutions of problem (11) without feedthrough lie in the row space of F, which
     is then fixed up to a basis, iff C F has full rank m and no state but zero can hold the output at zero (no finite zeros, (A, C)
     observable). *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Problem11 Trajectory.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

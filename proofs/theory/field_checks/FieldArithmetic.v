@@ -1,6 +1,6 @@
 (** Residues modulo l mean integers in a field where l is zero; polynomials in a root of f mean their values at the root. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq ssralg poly ssrint fraction.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import CertificatesVocabulary NumbersVocabulary Lists Elimination CheckMinimal.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,7 +1,7 @@
 (** Ranks of all windows, left-invertibility and behaviours of systems told by lists of numbers. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
+  zify.
 From faultspace Require Import Vocabulary Basics Infinite Balance Proposition3.
 From faultspace Require Import NumbersVocabulary NumberLists KernelRows ListedSystems CheckRanks FieldRows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,7 +1,7 @@
 (** The infinite zeros of a system told by lists of numbers, by multipliers that make its pencil at infinity diagonal: the powers of X in
     the minors of every order tell the orders one by one. *)
-From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra fraction.
 From faultspace Require Import Vocabulary NormalRank DiagonalMinors RankAtInfinity.
 From faultspace Require Import NumbersVocabulary NumberLists FieldZeros.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

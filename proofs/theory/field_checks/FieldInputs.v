@@ -1,9 +1,9 @@
 (** B and D of the two regressions, with the true A and C, in the stationary process of an experiment told by lists of numbers. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice div fintype finfun bigop order zmodp ssralg finalg ssrnum
+  matrix mxalgebra.
 From faultspace Require Import Vocabulary NumbersVocabulary ExperimentsVocabulary NumberLists FieldRows CheckMatrices FieldMatrices Signals.
-From faultspace Require Import Stability FieldProcesses FieldLimits RegressionFit.
+From faultspace Require Import Stability FieldProcesses FieldLimits Regression RegressionFit.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -175,8 +175,9 @@ split=> // [k|k|].
 split=> // [k k1||i il].
 - have k0 : k = 0%N by case: k k1.
   have [ex es] := fresh k k1; split=> //; by rewrite cov_sub_left ex k0 ze subr0.
-- rewrite !cov_sub !cov_sub_left cxx zx lasting; congr (_ - (_ - _)).
-  by rewrite -[LHS](cov_transpose _ _ symmetric) zx (cov_transpose _ _ symmetric).
+- have xz : cov Q (x 1%N) (z 1%N) = cov Q (x 0%N) (z 0%N).
+    by rewrite -[LHS](cov_transpose _ _ symmetric) zx (cov_transpose _ _ symmetric).
+  by rewrite !cov_sub !cov_sub_left cxx zx xz lasting.
 by rewrite !cov_sub_left cxs // zs.
 Qed.
 

@@ -1,7 +1,6 @@
 (** Faults that cannot be seen, and the delay with which the first one is determined, of a system told by lists of numbers. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix.
 From faultspace Require Import Vocabulary Basics.
 From faultspace Require Import NumbersVocabulary NumberLists KernelRows ListedSystems CheckInversion FieldRows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

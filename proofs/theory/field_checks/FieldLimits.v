@@ -1,8 +1,8 @@
 (** What identification converges to in the stationary process of an experiment told by lists of numbers: the covariances from that of the
     states, the ranks by elimination. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice div fintype finfun bigop order zmodp ssralg finalg ssrnum
+  matrix mxalgebra zify.
 From faultspace Require Import Vocabulary NumbersVocabulary ExperimentsVocabulary NumberLists CheckMatrices FieldMatrices Signals.
 From faultspace Require Import Stability FieldProcesses.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -2,8 +2,8 @@
     (0, 0). As a factor other than 0 does not matter, (a : b) is (1 : t) or (0 : 1). For (1 : t) the pencil is seen at some points to have
     full rank where a polynomial in t is not zero; the sum of these polynomials is 1, so at no t of any field are all of them zero. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra.
 From faultspace Require Import Vocabulary Inversion SeenBasis.
 From faultspace Require Import NumbersVocabulary NumberLists FieldZeros.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,8 +1,8 @@
 (** Ranks of named matrices of a system told by lists of numbers: O_n, T_s, [O_s T_s], reachability, and of a trajectory the Hankel matrix
     of its outputs and the excitation. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice div fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
+  zify.
 From faultspace Require Import Vocabulary Basics.
 From faultspace Require Import Stacks NumbersVocabulary NumberLists CheckMatrices FieldRows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,8 +1,8 @@
 (** Kernel rows and words of a system told by lists of numbers: where as many words are independent as the rows allow, the words of the
     system are just what satisfies the rows. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Stacks NumbersVocabulary NumberLists KernelRows ListedSystems CheckRows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -1,8 +1,8 @@
 (** The solutions (f, g) of problem (11) for a system told by lists of numbers, at one window or at all windows beyond the degrees of the
     kernel rows: the common zeros of the conditions of these rows, of which a basis leaves no room for more. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra zify.
 From faultspace Require Import Vocabulary Basics Windows.
 From faultspace Require Import NumbersVocabulary NumberLists KernelRows ListedSystems CheckRanks CheckSolutions FieldRows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
@@ -110,20 +110,20 @@ Qed.
 Lemma impulse_by_conditions rows s (f : 'rV[K]_n) (g : 'rV[K]_p) : sized n m p L -> annihilates (rows_of value p rows) S ->
   (forall row, row \in rows -> (0 < size row.2)%N ->
     f *m column n (head ([::], [::]) (costates L row.2).2).1 + g *m column p (head ([::], [::]) (costates L row.2).2).2 = 0) ->
-  satisfies (rows_of value p rows) s (output (with_faults S f g) 0 (impulse _)).
+  satisfies (rows_of value p rows) s (output (with_faults S f g) 0 (unit_fault _)).
 Proof.
 move=> wf ann h c [|j] c_in _; last first.
-  rewrite (_ : relation c _ = relation c (output S (state (with_faults S f g) 0 (impulse _) j.+1) (fun=> 0))); first exact: ann.
+  rewrite (_ : relation c _ = relation c (output S (state (with_faults S f g) 0 (unit_fault _) j.+1) (fun=> 0))); first exact: ann.
   by apply: eq_bigr => k _; rewrite output_shift -(output_free S f g); congr (_ *m _); apply: output_ext.
 case/mapP: c_in => row row_in ->; set Z := with_faults S f g.
-rewrite (_ : relation _ _ = relation (columns_of value p row.2) (output Z 0 (impulse _))) //.
+rewrite (_ : relation _ _ = relation (columns_of value p row.2) (output Z 0 (unit_fault _))) //.
 rewrite relation_horner mul0mx add0r size_map; case: (posnP (size row.2)) => [->|nonempty]; first by rewrite big_ord0.
 rewrite (bigD1 (Ordinal nonempty)) //= big1 => [|[[|k] lt] //]; last by rewrite mul0mx.
 by rewrite mul1mx addr0 (condition_meaning (Z := Z) meaning wf erefl erefl) // nth0 h.
 Qed.
 
 Theorem first_column_alone_sound s rows Q ws f g : first_column_alone n m p s L rows Q ws f g ->
-  let Z := with_faults S (vec n f) (vec p g) in word S s (output Z 0 (impulse _)) /\ ~ solves S s (vec n f) (vec p g).
+  let Z := with_faults S (vec n f) (vec p g) in word S s (output Z 0 (unit_fault _)) /\ ~ solves S s (vec n f) (vec p g).
 Proof.
 case/and5P=> ok short /eqP sz /allP first /hasP[c c_in seen] /=.
 have [wf _ ann _] := all_there_are_sound meaning ok.

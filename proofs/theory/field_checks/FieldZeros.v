@@ -1,8 +1,8 @@
 (** Diagonal forms of polynomial matrices, and the finite zeros of a system told by lists of numbers, by multipliers that make its pencil
     diagonal. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly polydiv matrix
+  mxalgebra fraction.
 From faultspace Require Import Vocabulary TransferRank MinorsOfOrder.
 From faultspace Require Import NumbersVocabulary NumberLists.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,7 +1,8 @@
 (** The recursion of Schur and Cohn: a polynomial that passes has all its roots inside the unit circle, and a matrix at which it vanishes is
     stable. With a stable matrix Stein's equation X = M' X M has one solution. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg poly ssrnum
+  ssrint matrix mxalgebra mxpoly.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import CertificatesVocabulary NumbersVocabulary ExperimentsVocabulary Lists NumberLists.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -3,7 +3,8 @@
     the checks are functions on lists of them (ExperimentsVocabulary.v), and f, P and what follows them are witnesses that nobody
     has to believe. Stability is said of every field C with a norm and all roots, as the complex numbers, that holds K. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum matrix
+  mxalgebra.
 From faultspace Require Import Vocabulary NumbersVocabulary ExperimentsVocabulary.
 From faultspace Require Stability FieldLimits FieldInputs.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
@@ -14,7 +15,6 @@ Local Open Scope ring_scope.
 Theorem field_schur_stable (R : arithmetic) (K : fieldType) (value : numeral R -> K) n M f : means value -> is_stable n M f ->
   forall (C : numClosedFieldType) (embed : {rmorphism K -> C}), schur_stable (map_mx embed (matrix_of value n n M)).
 Proof. exact: Stability.system_stable. Qed.
-Print Assumptions field_schur_stable.
 
 (** The experiment is stable; and in every stationary process of it the covariance of the future inputs is invertible, and the limits of
     identification, by the past inputs and q past outputs, have the rank told, together with O_s too *)
@@ -28,7 +28,6 @@ Theorem field_moesp_limit (R : arithmetic) (K : fieldType) (value : numeral R ->
   [/\ cov Q Uf Uf \in unitmx, \rank seen = ro &
     forall L, projected_limit Q Z Uf Yf L -> \rank L = rl /\ \rank (col_mx L seen) = rj].
 Proof. move=> meaning; exact: (FieldLimits.is_limit_sound meaning). Qed.
-Print Assumptions field_moesp_limit.
 
 (** The experiment is stable; and in every stationary process of it the covariance of the future inputs is invertible, and the regression
     of MOESP on s samples, with the true A and C, has its least sum of squares at the B and D told, and nowhere else *)
@@ -42,10 +41,9 @@ Theorem field_input_limit_moesp (R : arithmetic) (K : realFieldType) (value : nu
   exists X, forall B' D' X', squares (rest B0 D0 X) <= squares (rest B' D' X') /\
     (squares (rest B' D' X') <= squares (rest B0 D0 X) -> B' = B0 /\ D' = D0).
 Proof. move=> meaning; exact: (FieldInputs.is_regression_sound meaning). Qed.
-Print Assumptions field_input_limit_moesp.
 
-(** The experiment is stable; and in every stationary process of it, by output error with the true A and C, any other model has a larger
-    mean square error than the one with the B and D told, by the mean square of the difference of what the two predict *)
+(** The experiment is stable; and in every stationary process of it, by output error with the true A and C, the mean square error of any
+    other model is that of the one with the B and D told and the mean square of the difference of what the two predict *)
 Theorem field_input_limit_true_AC (R : arithmetic) (K : fieldType) (value : numeral R -> K) n m p nu c E B D B' D' P f Sum :
   means value -> is_output_error n m p nu c E B D B' D' P f Sum ->
   forall (C : numClosedFieldType) (embed : {rmorphism K -> C}),
@@ -56,4 +54,3 @@ Theorem field_input_limit_true_AC (R : arithmetic) (K : fieldType) (value : nume
   let error D z := model_error E0 u y D z 0 in let D0 := matrix_of value nu p D in let difference := error D0 z - error D1 z1 in
   \tr (cov Q (error D1 z1) (error D1 z1)) = \tr (cov Q (error D0 z) (error D0 z)) + \tr (cov Q difference difference).
 Proof. move=> meaning; exact: (FieldInputs.is_output_error_sound meaning). Qed.
-Print Assumptions field_input_limit_true_AC.

@@ -2,10 +2,12 @@
     all of the range of O_s, what the range tells of A and C, a fault that follows the input, and examples. LimitsVocabulary.v tells the
     words that are used here alone: steered, similar, autoregressive, stationary, seen_state.
 
-    Measurement noise is nowhere in these theorems, as it is a fault with F = 0 and G = 1 (noise_is_a_fault). Where a statement speaks of a
-    least mean square error, of a positive variance or of singular vectors, it is over an ordered field (realFieldType); two examples are
-    over the rational numbers; the others are over any field. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+    Measurement noise is nowhere in these theorems, as it is a fault with F = 0 and G = 1 (noise_is_a_fault); those of settle-1, where the
+    fault is made of the inputs alone, are without noise. Where a statement speaks of a least mean square error, of a positive variance or
+    of singular vectors, it is over an ordered field (realFieldType); two examples are over the rational numbers; the others are over any
+    field. *)
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum ssrint
+  rat matrix mxalgebra.
 From faultspace Require Import Vocabulary LimitsVocabulary.
 From faultspace Require WholeRange ShortPast OneState AlmostEvery ColouredInputs Similarity LimitExamples.
 From faultspace Require FollowingFault FollowingExamples.
@@ -16,7 +18,7 @@ Local Open Scope ring_scope.
 (** ** Noise *)
 
 (** Noise w at the outputs is a fault (v, w) with F = 0 and G = 1 for w; it is uncorrelated with the inputs iff v and w are; O_s is the
-    same. So theorems without noise lose nothing. *)
+    same. So theorems about faults that are uncorrelated with the inputs lose nothing. *)
 Theorem noise_is_a_fault (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p)) u v w x y :
   let noisy := with_faults S (col_mx (sysF S) 0) (col_mx (sysG S) 1%:M) in
   [/\ process noisy B D u (fun k => row_mx (v k) (w k)) x y <-> (forall k, x k.+1 = x k *m sysA S + u k *m B + v k *m sysF S /\
@@ -24,7 +26,6 @@ Theorem noise_is_a_fault (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K 
       forall i k, cov Q (u i) (row_mx (v k) (w k)) = 0 <-> cov Q (u i) (v k) = 0 /\ cov Q (u i) (w k) = 0
     & forall s, O noisy s = O S s].
 Proof. exact: LimitExamples.noise_is_a_fault. Qed.
-Print Assumptions noise_is_a_fault.
 
 (** ** proposition-1, all of the range *)
 
@@ -37,7 +38,6 @@ Theorem whole_range_autoregressive (K : fieldType) N n m p nu (Q : 'M[K]_N) (S :
   (n + a <= q <= t)%N -> cov Q (future t s u) (future t s u) \in unitmx -> (forall z, steered S B z) ->
   projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> (L == O S s)%MS.
 Proof. move=> model uv ar later /andP[nq qt] unit; exact: (WholeRange.autoregressive_whole_range model qt uv ar later unit nq). Qed.
-Print Assumptions whole_range_autoregressive.
 
 (** Of order at most s, all stationary, and n past inputs: all of the range. The process runs for n + a times before the present. *)
 Theorem whole_range_autoregressive_stationary (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n))
@@ -51,7 +51,6 @@ Proof.
 move=> sym model uv ar later uu ux unit s0 short /andP[nq qt] past;
 exact: (ShortPast.stationary_whole_range sym model uv ar later uu ux unit short nq qt past s0).
 Qed.
-Print Assumptions whole_range_autoregressive_stationary.
 
 (** There are such signals, with u of order 1 and the pole alpha. *)
 Theorem autoregressive_signals_exist (K : fieldType) (alpha rho : K) H : rho ^+ 2 != 1 -> alpha * rho != 1 ->
@@ -61,7 +60,6 @@ Theorem autoregressive_signals_exist (K : fieldType) (alpha rho : K) H : rho ^+ 
       stationary Q u u H /\ stationary Q u x H
     & forall t s, (t + s <= H)%N -> cov Q (future t s u) (future t s u) \in unitmx].
 Proof. exact: ColouredInputs.first_order_signals. Qed.
-Print Assumptions autoregressive_signals_exist.
 
 (** Controllability is needed whatever the colour of u, if x(0) shares with the inputs only what came through B. *)
 Theorem whole_range_controllable (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
@@ -70,7 +68,6 @@ Theorem whole_range_controllable (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : s
   (forall i j, (i < t + s)%N -> steered S B (row j (cov Q (u i) (x 0%N)))) -> (q <= t)%N -> row_free (O S s) ->
   projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> (L == O S s)%MS -> forall z, steered S B z.
 Proof. move=> model uv start qt; exact: (WholeRange.whole_range_needs_controllability model qt uv start). Qed.
-Print Assumptions whole_range_controllable.
 
 (** One state and u of any colour: all of the range as soon as B is not zero. z is what the inputs have made of the state, stationary; the
     present is t + 1, and the inputs from t to t + s excite. *)
@@ -86,7 +83,6 @@ Proof.
 move=> H sym pos model stable uv driven start uu uz zz s0 excites;
 exact: (OneState.one_state_whole_range sym pos model stable uv driven start uu uz zz s0 excites).
 Qed.
-Print Assumptions whole_range_one_state.
 
 (** There are such signals for a coloured u, with t = s = 1: u(k) = e(k) + e(k-1)/2 and A = 1/2. *)
 Theorem one_state_signals_exist : let S : system [fieldType of rat] 1 0 1 := System (1 / 2%:R)%:M 0 1%:M 0 in
@@ -95,7 +91,6 @@ Theorem one_state_signals_exist : let S : system [fieldType of rat] 1 0 1 := Sys
     [/\ stationary Q u u 3, stationary Q u z 3 & stationary Q z z 3], cov Q (future 1 2 u) (future 1 2 u) \in unitmx
   & cov Q (u 0%N) (u 1%N) != 0].
 Proof. exists MovingAverage.Q; exact: ColouredInputs.moving_average_signals. Qed.
-Print Assumptions one_state_signals_exist.
 
 (** u of any colour, fixed, and x(0) uncorrelated with the inputs from t - q on, as it is where the memory of u is no longer than t - q. The
     limit has all of the range iff seen_state, a polynomial in A and B, has full rank; on every line through such a point (A, B) all
@@ -106,17 +101,14 @@ Theorem whole_range_seen (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K 
   row_free (O S s) -> projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L ->
   (L == O S s)%MS = row_full (seen_state Q u t q s (sysA S) B).
 Proof. move=> model uv start qt unit; exact: (AlmostEvery.whole_range_seen model uv start qt unit). Qed.
-Print Assumptions whole_range_seen.
 Theorem whole_range_almost_every (K : fieldType) N n nu (Q : 'M[K]_N) (u : nat -> 'M_(N, nu)) t q s (A A1 : 'M_n) (B B1 : 'M_(nu, n))
     (ts : seq K) : row_full (seen_state Q u t q s A B) -> uniq ts ->
   (forall c, c \in ts -> ~~ row_full (seen_state Q u t q s (A + c *: A1) (B + c *: B1))) -> (size ts <= n * t)%N.
 Proof. exact: AlmostEvery.whole_range_almost_every. Qed.
-Print Assumptions whole_range_almost_every.
 Theorem whole_range_somewhere (K : fieldType) N n nu (Q : 'M[K]_N) (u : nat -> 'M_(N, nu)) t q s : (0 < nu)%N -> (n <= q)%N -> (q <= t)%N ->
   cov Q (future t s u) (future t s u) \in unitmx -> cov Q (future (t - q) (q + s) u) (future (t - q) (q + s) u) \in unitmx ->
   exists (A : 'M[K]_n) (B : 'M[K]_(nu, n)), row_full (seen_state Q u t q s A B).
 Proof. exact: AlmostEvery.whole_range_somewhere. Qed.
-Print Assumptions whole_range_somewhere.
 
 (** A nilpotent, A^q = 0: all of the range, u of any colour. *)
 Theorem whole_range_nilpotent (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
@@ -126,7 +118,6 @@ Theorem whole_range_nilpotent (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : syst
   iter q (mulmxr (sysA S)) 1%:M = 0 -> (forall z, steered S B z) ->
   projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> (L == O S s)%MS.
 Proof. exact: AlmostEvery.whole_range_nilpotent. Qed.
-Print Assumptions whole_range_nilpotent.
 
 (** ** proposition-1, white-a-c-seen: what "A and C are right" means *)
 
@@ -134,7 +125,6 @@ Print Assumptions whole_range_nilpotent.
 Theorem range_determines_a_c (K : fieldType) n m m' p (S : system K n m p) (S' : system K n m' p) s :
   row_free (O S s.-1) -> (O S s == O S' s)%MS <-> similar S S'.
 Proof. exact: Similarity.same_range_similar. Qed.
-Print Assumptions range_determines_a_c.
 
 (** The limit is the range of O_s iff A is controllable from B seen; and then only, the A' and C' that have the limit as the range of their
     O_s are A and C up to the basis of the state. *)
@@ -146,7 +136,6 @@ Theorem white_a_c_up_to_basis (K : fieldType) N n m m' p nu (Q : 'M[K]_N) (S : s
   ((L == O S s)%MS <-> forall z, steered S (seen_B S J Phi B) z) /\
   ((L == O S' s)%MS -> similar S S' <-> forall z, steered S (seen_B S J Phi B) z).
 Proof. exact: Similarity.white_limit_similar. Qed.
-Print Assumptions white_a_c_up_to_basis.
 
 (** ** proposition-1, white-b-d: all of the range, and B and D wrong *)
 
@@ -163,7 +152,6 @@ Theorem white_b_d_wrong_a_c_right (K : realFieldType) (a b : K) N H (Q : 'M[K]_N
       (forall t k B' D', (1 < t)%N -> (0 < k)%N -> (t + k + 2 < H)%N -> B' = B \/ D' = 0 ->
         mean_square Q S u y t k (a + b)%:M (row_mx 1%:M 0) < mean_square Q S u y t k B' D')].
 Proof. exact: LimitExamples.whole_range_and_wrong_input. Qed.
-Print Assumptions white_b_d_wrong_a_c_right.
 
 (** ** proposition-1, coloured-a-c: u, v and x of proposition_1_coloured_a_c are stationary *)
 
@@ -173,7 +161,6 @@ Theorem coloured_a_c_stationary : let Q := MovingAverage.Q in let u := MovingAve
   let z k := row_mx (row_mx (u k) (v k)) (x k) in
   forall i k, (i < 3)%N -> (k < 3)%N -> cov Q (z i.+1) (z k.+1) = cov Q (z i) (z k).
 Proof. exact: LimitExamples.coloured_signals_stationary. Qed.
-Print Assumptions coloured_a_c_stationary.
 
 (** ** settle-1: v(k) = u(k-1) Phi, u white; w(k) stands for u(k-1) *)
 
@@ -186,7 +173,6 @@ Theorem settle_1_not_both (K : realFieldType) N n m p nu (Q : 'M[K]_N) (S : syst
   projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> (L <= O S s)%MS ->
   (forall B' D', mean_square Q S u y t' k B D <= mean_square Q S u y t' k B' D') -> Phi *m sysF S = 0 /\ Phi *m sysG S = 0.
 Proof. exact: FollowingFault.not_both. Qed.
-Print Assumptions settle_1_not_both.
 
 (** Nor where B and D are among the best fits by output error summed over several times, one of which observes (A, C). *)
 Theorem settle_1_not_both_in_sum (K : realFieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
@@ -199,7 +185,6 @@ Theorem settle_1_not_both_in_sum (K : realFieldType) N n m p nu (Q : 'M[K]_N) (S
   (forall B' D', \sum_(j <- ks) mean_square Q S u y t' j B D <= \sum_(j <- ks) mean_square Q S u y t' j B' D') ->
   Phi *m sysF S = 0 /\ Phi *m sysG S = 0.
 Proof. exact: FollowingFault.not_both_in_sum. Qed.
-Print Assumptions settle_1_not_both_in_sum.
 
 (** biased: x(k+1) = a x(k) + u(k) + f v(k), y = x, for all a > 0 and f > 0. If singular vectors of L spanned the range of O_s, O_s L'L
     would lie in it. *)
@@ -210,7 +195,6 @@ Theorem settle_1_biased (K : realFieldType) (a f : K) N H (Q : 'M[K]_N) (u : nat
   (exists w x y, follows w x y) /\ forall w x y t q s L, follows w x y -> (0 < q <= t)%N -> (1 < s)%N -> (t + s <= H)%N ->
     projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> ~ (O S s *m (L^T *m L) <= O S s)%MS.
 Proof. exact: FollowingExamples.follows_biased. Qed.
-Print Assumptions settle_1_biased.
 
 (** not of every system: a f = -(1 + a^2), two samples and three past inputs or more. The leading singular vector of L, of eigenvalue
     lambda, spans the range of O_2, mu is that of the other; and the regression gives B = 1 and D = 0 alone. *)
@@ -225,4 +209,3 @@ Theorem settle_1_all_right (K : realFieldType) (a f : K) N H (Q : 'M[K]_N) (u : 
     (forall W B' D', let Uf := future t 2 u in W *m cov Q Uf Uf = 1%:M ->
       (W *m cov Q Uf (future t 2 y) - T (with_faults S B' D') 2) *m cokermx (O S 2) = 0 <-> B' = 1%:M /\ D' = 0).
 Proof. exact: FollowingExamples.follows_all_right. Qed.
-Print Assumptions settle_1_all_right.

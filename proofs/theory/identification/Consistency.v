@@ -1,7 +1,7 @@
 (** The algebra of proposition 1. Where past and future inputs are uncorrelated with the future faults, the matrix that subspace
     identification takes the observability matrix from is a cross-covariance times O_s, exactly (transposed here: the row space of O_s
     holds the rows of the limit). Without that the error is known exactly as well: the same projection of the faults, times T_s. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.
 From faultspace Require Import Vocabulary Windows Places Signals.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

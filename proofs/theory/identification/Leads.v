@@ -1,7 +1,8 @@
 (** A fault that leads a white input, v(k) = sum_(j < J) u(k+j) Phi_j, uncorrelated with the input's past when Phi_0 = 0. What u does to y
     is what B + sum_j Phi_j F A^j and D + Phi_0 G + sum_(j >= 1) Phi_j F A^(j-1) C would do without a fault. So the limit of
     PI-MOESP is a product with O_s still, of rank n iff A is controllable from this seen B, which is not the true one. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
+  zify.
 From faultspace Require Import Vocabulary Places Signals Consistency.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

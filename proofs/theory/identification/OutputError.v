@@ -2,8 +2,9 @@
     and nothing else: the predictions from (B seen, D seen) leave an error that is uncorrelated with the inputs they are made of, so any
     other B, D adds its own distance. Predictions start from rest at any time t; the fit is the same for each number of samples that
     observes (A, C). *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Windows Signals Leads.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum matrix
+  mxalgebra zify.
+From faultspace Require Import Vocabulary Signals Leads Regression.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -115,14 +116,6 @@ rewrite psumr_eq0 // => /allP z; apply/matrixP=> j i; rewrite mxE; have := z i (
 by rewrite /= psumr_eq0 => [/allP/(_ j (mem_index_enum _))|l _]; [rewrite /= sqrf_eq0 => /eqP|apply: sqr_ge0].
 Qed.
 
-Lemma no_impulse k B' D' : row_free (O S k) -> (forall d, (d < k.+1)%N -> impulse S B' D' d = 0) -> B' = 0 /\ D' = 0 :> 'M_(nu, p).
-Proof.
-move=> obs h; split; last exact: (h 0%N isT).
-apply/row_matrixP=> i; rewrite row0; apply: (row_free_inj obs); rewrite mul0mx mul_O; apply/samples_eq0 => d dk.
-have := h d.+1 dk => /(congr1 (row i)); rewrite row0 row_mul /output mul0mx addr0 => e; rewrite -[RHS]e; congr (_ *m _).
-by elim: d {dk e} => //= d ->; rewrite mul0mx addr0 row_mul.
-Qed.
-
 Theorem least_squares t k B' D' : Q^T = Q -> (J <= t)%N -> (t + k + J < H)%N ->
   let mean_square B D := let e := y (t + k)%N - prediction S B D u t k in \tr (cov Q e e) in
   mean_square (seen_B S J Phi B) (seen_D S J Phi D) <= mean_square B' D' /\
@@ -136,7 +129,7 @@ rewrite mxtraceD tr_sum; set dB := _ - B'; set dD := _ - D'.
 have pos (d : 'I_k.+1) : true -> 0 <= \tr ((impulse S dB dD d)^T *m impulse S dB dD d) by case: (trace_square (impulse S dB dD d)).
 split; first by rewrite ler_addl; apply: sumr_ge0 => d _; apply: pos.
 move=> obs /eqP; rewrite -subr_eq0 addrC addKr psumr_eq0 // => /allP z.
-have [d dk|b d] := @no_impulse k dB dD obs.
+have [d dk|b d] := @no_impulse K n m p nu S k dB dD obs.
   by have [_] := trace_square (impulse S dB dD d); apply; apply/eqP; have := z (Ordinal dk) (mem_index_enum _).
 by split; apply/eqP; rewrite eq_sym -subr_eq0; apply/eqP.
 Qed.

@@ -2,7 +2,7 @@
     of its columns gives one entry as a combination of N basic random variables, whose covariances are an arbitrary N x N matrix Q. Any
     finite set of random variables can be written in this way, and with Q = 1/N the matrices may also be N samples of data, cov their
     sample covariance. So every identity here holds for finite data, for each sample size, and for the population limit. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg matrix.
 From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

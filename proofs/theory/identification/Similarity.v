@@ -1,6 +1,6 @@
 (** The range of O_s determines (A, C) up to the basis of the state, if (A, C) is observable on s - 1 samples. So what is read from a limit
     of subspace identification is right up to a basis just when the limit has all of the range of O_s. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Controllable LimitsVocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -2,7 +2,7 @@
     feedthrough of the fault, v(k) = u(k+1) Phi acts as B + Phi F A, D + Phi F C with the state x(k) - u(k) Phi F. So the limit of
     subspace identification is a product with O_s still, A and C are as right as without a fault, and the regression for B and D gives
     these. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.
 From faultspace Require Import Vocabulary Signals Consistency Regression.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
@@ -35,11 +35,11 @@ Theorem next_fault_limit t s z (Z : 'M_(N, z)) L : sysG S = 0 -> process S B D u
 Proof. by move=> G0 /(next_fault G0) model; apply: (two_sided_limit model); apply: uncorrelated_with_nothing. Qed.
 
 Theorem next_fault_regression t s W B' D' : let Uf := future t s u in
-  sysG S = 0 -> process S B D u (fun k => u k.+1 *m Phi) x y -> (n < s)%N -> row_free (O S s) -> W *m cov Q Uf Uf = 1%:M ->
+  sysG S = 0 -> process S B D u (fun k => u k.+1 *m Phi) x y -> (0 < s)%N -> row_free (O S s.-1) -> W *m cov Q Uf Uf = 1%:M ->
   (W *m cov Q Uf (future t s y) - T (with_faults S B' D') s) *m cokermx (O S s) = 0 <->
   B' = B + Phi *m sysF S *m sysA S /\ D' = D + Phi *m sysF S *m sysC S.
 Proof.
-move=> Uf G0 /(next_fault G0) model ns obs hW; apply: (two_sided_regression model B' D' ns obs hW).
+move=> Uf G0 /(next_fault G0) model s0 obs hW; apply: (two_sided_regression model B' D' s0 obs hW).
 exact: uncorrelated_with_nothing.
 Qed.
 
@@ -49,11 +49,11 @@ Theorem present_fault_limit t s z (Z : 'M_(N, z)) L : process S B D u (fun k => 
 Proof. by move=> /present_fault model; apply: (two_sided_limit model); apply: uncorrelated_with_nothing. Qed.
 
 Theorem present_fault_regression t s W B' D' : let Uf := future t s u in
-  process S B D u (fun k => u k *m Phi) x y -> (n < s)%N -> row_free (O S s) -> W *m cov Q Uf Uf = 1%:M ->
+  process S B D u (fun k => u k *m Phi) x y -> (0 < s)%N -> row_free (O S s.-1) -> W *m cov Q Uf Uf = 1%:M ->
   (W *m cov Q Uf (future t s y) - T (with_faults S B' D') s) *m cokermx (O S s) = 0 <->
   B' = B + Phi *m sysF S /\ D' = D + Phi *m sysG S.
 Proof.
-move=> Uf /present_fault model ns obs hW; apply: (two_sided_regression model B' D' ns obs hW).
+move=> Uf /present_fault model s0 obs hW; apply: (two_sided_regression model B' D' s0 obs hW).
 exact: uncorrelated_with_nothing.
 Qed.
 

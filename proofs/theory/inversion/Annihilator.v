@@ -2,7 +2,7 @@
     These c are the last parts of the polynomial columns (b; c) in the right kernel of the pencil; b is the costate, which runs backwards:
         b(k-1) = A b(k) - C c(k),     F b(k) = G c(k).
     Words are exactly what all annihilators annihilate, so restricted behaviours may be compared by kernels of pencils. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg poly matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows PolynomialKernel.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

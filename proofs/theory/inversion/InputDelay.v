@@ -2,7 +2,8 @@
     it. V_k: the states from which k zero outputs are possible. The bound m + n - rank C comes from the dimension of V_1, the bound
     rank [A F] from the part of V_k in the range of [A F], on which alone V_(k+1) depends. Each chain loses a dimension a step until it
     stops. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
+  zify.
 From faultspace Require Import Vocabulary StructureVocabulary Basics Chain Trajectory.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

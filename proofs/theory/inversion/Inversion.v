@@ -2,7 +2,8 @@
     closed by polynomials: a polynomial row in the left kernel of the pencil, read from its leading coefficient on, is a silent
     trajectory from rest to rest; and n + 1 states of a silent trajectory from rest are linearly dependent, which gives a polynomial row
     in the kernel. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset
+  generic_quotient perm zmodp countalg ssralg finalg poly polydiv matrix mxalgebra mxpoly fraction.
 From faultspace Require Import Vocabulary Basics PolynomialKernel.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -2,7 +2,8 @@
     s >= n, and the pencil has rank n + gap n. For a polynomial row in the kernel of the pencil has all its coefficients among the
     silent pairs (x, v) of the limit W of the chain W_k; on these the pencil is q X - N with X, N inside W and N onto W, of rank dim W.
     *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra fraction zify.
 From faultspace Require Import Vocabulary Windows Chain Gap Balance PolynomialKernel Inversion TransferRank.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

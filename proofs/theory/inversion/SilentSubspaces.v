@@ -1,7 +1,7 @@
 (** zeta = n - sum eta of Lag.v is the dimension of V + S, for every system. V: the states from which the output can be zero for ever (the
     largest output-nulling subspace). S: the states reachable from rest with zero output (the smallest input-containing subspace). Both are
     counted in kernels of windows; of a silent fault from rest on 2 n samples, the state after n is any state of V and S. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg matrix mxalgebra zify.
 From faultspace Require Import Vocabulary Basics Windows Chain Lag Trajectory.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
@@ -85,31 +85,40 @@ Proof.
 move=> a u w; rewrite -state_scale -state_add scaler0 addr0.
 by apply: state_ext => j _; rewrite unsamples_linear.
 Qed.
-Definition state_at s k := lin1_mx (Linear (@state_linear s k)).
+Definition state_at s k := lin1_mx (fun w : 'rV[K]_(s * m) => state S 0 (unsamples w) k).
+
+Lemma mul_state_at s k (w : 'rV[K]_(s * m)) : w *m state_at s k = state S 0 (unsamples w) k.
+Proof. exact: mul_lin1 (@state_linear s k). Qed.
 
 Fact first_faults_linear s t : linear (fun w : 'rV[K]_((s + t) * m) => samples s (unsamples w)).
 Proof. by move=> a u w; rewrite -samples_scale -samples_add; apply: samples_ext => k _; rewrite unsamples_linear. Qed.
-Definition first_faults s t := lin1_mx (Linear (@first_faults_linear s t)).
+Definition first_faults s t := lin1_mx (fun w : 'rV[K]_((s + t) * m) => samples s (unsamples w)).
+
+Lemma mul_first_faults s t (w : 'rV[K]_((s + t) * m)) : w *m first_faults s t = samples s (unsamples w).
+Proof. exact: mul_lin1 (@first_faults_linear s t). Qed.
 
 Fact later_faults_linear s t : linear (fun w : 'rV[K]_(t * m) => samples (s + t) (follow s (fun=> 0) (unsamples w))).
 Proof.
 move=> a u w; rewrite -samples_scale -samples_add; apply: samples_ext => k _.
 by rewrite /follow; case: ifP => _; rewrite ?scaler0 ?addr0 // unsamples_linear.
 Qed.
-Definition later_faults s t := lin1_mx (Linear (@later_faults_linear s t)).
+Definition later_faults s t := lin1_mx (fun w : 'rV[K]_(t * m) => samples (s + t) (follow s (fun=> 0) (unsamples w))).
+
+Lemma mul_later_faults s t (w : 'rV[K]_(t * m)) : w *m later_faults s t = samples (s + t) (follow s (fun=> 0) (unsamples w)).
+Proof. exact: mul_lin1 (@later_faults_linear s t). Qed.
 
 Lemma rank_rest s : \rank (rest s) = (\rank (reached s) + \rank (rest s :&: kermx (state_at s s)))%N.
 Proof.
 rewrite -(mxrank_mul_ker (rest s) (state_at s s)); congr (_ + _)%N; apply: eqmx_rank; apply/andP; split; apply/row_subP => i.
-  by rewrite row_mul mul_rV_lin1; apply/reachedP; exists (unsamples (row i (rest s))); split=> //; apply/restP/row_sub.
+  by rewrite row_mul mul_state_at; apply/reachedP; exists (unsamples (row i (rest s))); split=> //; apply/restP/row_sub.
 have /reachedP[v [h <-]] := row_sub i (reached s); apply: submx_trans (_ : (samples s v *m state_at s s <= _)%MS); last first.
   exact/submxMr/rest_samples.
-by rewrite mul_rV_lin1 /= (state_ext _ _ (w := v)) // => j js; rewrite samplesK.
+by rewrite mul_state_at (state_ext _ _ (w := v)) // => j js; rewrite samplesK.
 Qed.
 
 Lemma later_free s t : row_free (later_faults s t).
 Proof.
-apply: inj_row_free => w; rewrite mul_rV_lin1 /= => /samples_eq0 w0; rewrite -[w]unsamplesK; apply/samples_eq0 => k kt.
+apply: inj_row_free => w; rewrite mul_later_faults => /samples_eq0 w0; rewrite -[w]unsamplesK; apply/samples_eq0 => k kt.
 by have := w0 (s + k)%N; rewrite ltn_add2l kt /follow ltnNge leq_addr addKn; apply.
 Qed.
 
@@ -119,19 +128,19 @@ Lemma rank_back_at_rest s t :
 Proof.
 set D := (_ :&: _)%MS; rewrite -(mxrank_mul_ker D (first_faults s t)) -(mxrankMfree (rest t) (later_free s t)).
 have DP w : (w <= D)%MS <-> (forall k, (k < s + t)%N -> output S 0 (unsamples w) k = 0) /\ state S 0 (unsamples w) s = 0.
-  rewrite sub_capmx (sameP (sub_kermxP (A := state_at _ _)) eqP) mul_rV_lin1 /=; split=> [/andP[/restP h /eqP] //|[/restP -> ->]].
+  rewrite sub_capmx (sameP (sub_kermxP (A := state_at _ _)) eqP) mul_state_at; split=> [/andP[/restP h /eqP] //|[/restP -> ->]].
   by rewrite eqxx.
 congr (_ + _)%N; apply: eqmx_rank; apply/andP; split; apply/row_subP => i.
-- rewrite row_mul mul_rV_lin1 /=; have /DP[h e] := row_sub i D; move: (row i D) h e => w h e.
-  rewrite sub_capmx (sameP (sub_kermxP (A := state_at _ _)) eqP) mul_rV_lin1 /=; apply/andP; split.
+- rewrite row_mul mul_first_faults; have /DP[h e] := row_sub i D; move: (row i D) h e => w h e.
+  rewrite sub_capmx (sameP (sub_kermxP (A := state_at _ _)) eqP) mul_state_at; apply/andP; split.
     by apply/rest_samples => k ks; apply: h; apply: ltn_addr.
   by apply/eqP; rewrite -[RHS]e; apply: state_ext => j js; rewrite samplesK.
 - have := row_sub i (rest s :&: kermx (state_at s s))%MS; move: (row i _) => u; rewrite sub_capmx => /andP[/restP h].
-  rewrite (sameP sub_kermxP eqP) mul_rV_lin1 /= => /eqP e.
+  rewrite (sameP sub_kermxP eqP) mul_state_at => /eqP e.
   pose w : 'rV[K]_((s + t) * m) := samples (s + t) (follow s (unsamples u) (fun=> 0)).
   have wE k : (k < s + t)%N -> unsamples w k = follow s (unsamples u) (fun=> 0) k by apply: samplesK.
   suff Dw : (w <= D)%MS.
-    apply: submx_trans (submxMr _ Dw); rewrite mul_rV_lin1 /=; suff -> : u = samples s (unsamples w) by [].
+    apply: submx_trans (submxMr _ Dw); rewrite mul_first_faults; suff -> : u = samples s (unsamples w) by [].
     by rewrite -[LHS]unsamplesK; apply: samples_ext => k ks; rewrite wE ?ltn_addr // /follow ks.
   apply/DP; split=> [k kst|].
     rewrite (output_ext _ _ (w := follow s (unsamples u) (fun=> 0))) => [|j jk]; last by apply/wE/(leq_ltn_trans jk).
@@ -140,16 +149,16 @@ congr (_ + _)%N; apply: eqmx_rank; apply/andP; split; apply/row_subP => i.
   rewrite (state_ext _ _ (w := follow s (unsamples u) (fun=> 0))) => [|j jk]; last by rewrite wE // ltn_addr.
   by rewrite state_follow_before.
 - have := row_sub i (D :&: kermx (first_faults s t))%MS; move: (row i _) => w; rewrite sub_capmx => /andP[/DP[h e]].
-  rewrite (sameP sub_kermxP eqP) mul_rV_lin1 /= => /eqP/samples_eq0 w0.
+  rewrite (sameP sub_kermxP eqP) mul_first_faults => /eqP/samples_eq0 w0.
   have wE : w = samples t (fun k => unsamples w (s + k)%N) *m later_faults s t.
-    rewrite mul_rV_lin1 /= -[LHS]unsamplesK; apply: samples_ext => k kst; rewrite /follow.
+    rewrite mul_later_faults -[LHS]unsamplesK; apply: samples_ext => k kst; rewrite /follow.
     by case: ltnP => sk; [rewrite w0 | rewrite samplesK ?subnKC // ltn_subLR].
   rewrite wE; apply/submxMr/rest_samples => k kt; have := h (s + k)%N; rewrite ltn_add2l kt => <- //.
   by rewrite output_shift e.
-rewrite row_mul; have := row_sub i (rest t); move: (row i (rest t)) => u /restP h; rewrite mul_rV_lin1 /=.
+rewrite row_mul; have := row_sub i (rest t); move: (row i (rest t)) => u /restP h; rewrite mul_later_faults.
 set w := samples _ _; have wE k : (k < s + t)%N -> unsamples w k = follow s (fun=> 0) (unsamples u) k by apply: samplesK.
 rewrite sub_capmx; apply/andP; split; last first.
-  apply/sub_kermxP; rewrite mul_rV_lin1 /=; apply/samples_eq0 => k ks.
+  apply/sub_kermxP; rewrite mul_first_faults; apply/samples_eq0 => k ks.
   by rewrite wE ?ltn_addr // /follow ks.
 have at_s : state S 0 (follow s (fun=> 0) (unsamples u)) s = 0 by rewrite state_follow_before // state_zero.
 apply/DP; split=> [k kst|].
@@ -164,14 +173,14 @@ Lemma rank_on_the_way s t : \rank (rest (s + t)) =
   (\rank (reached s :&: iter t (hold_step S) 1%:M) + \rank (rest (s + t) :&: kermx (state_at (s + t) s)))%N.
 Proof.
 rewrite -(mxrank_mul_ker (rest (s + t)) (state_at (s + t) s)); congr (_ + _)%N; apply: eqmx_rank; apply/andP; split; apply/row_subP => i.
-  rewrite row_mul mul_rV_lin1 /=; have /restP := row_sub i (rest (s + t)); move: (row i _) => w h.
+  rewrite row_mul mul_state_at; have /restP := row_sub i (rest (s + t)); move: (row i _) => w h.
   rewrite sub_capmx; apply/andP; split.
     by apply/reachedP; exists (unsamples w); split=> // j js; apply: h; apply: ltn_addr.
   by apply/holdP; exists (fun k => unsamples w (s + k)%N) => j jt; rewrite -output_shift h // ltn_add2l.
 have := row_sub i (reached s :&: iter t (hold_step S) 1%:M)%MS; move: (row i _) => x; rewrite sub_capmx.
 case/andP => /reachedP[v [h <-]] /holdP[u q].
 apply: submx_trans (_ : (samples (s + t) (follow s v u) *m state_at (s + t) s <= _)%MS).
-  rewrite mul_rV_lin1 /= (state_ext _ _ (w := v)) // => j js.
+  rewrite mul_state_at (state_ext _ _ (w := v)) // => j js.
   by rewrite samplesK ?ltn_addr // /follow js.
 apply/submxMr/rest_samples => k kst; have [ks|sk] := ltnP k s; first by rewrite output_follow_before ?h.
 by rewrite -(subnKC sk) output_follow_after q // ltn_subLR.

@@ -1,7 +1,8 @@
 (** When the output determines the faults. With a known initial state: iff left-invertible. With an unknown one: iff moreover every
     state from which some fault keeps the output zero keeps it zero without faults (no finite zeros but the unobservable modes); then n
     + 1 samples give v(0). *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset
+  generic_quotient perm zmodp ssralg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Chain.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -1,7 +1,8 @@
 (** The pencil [qI - A, C; -F, G] over the rational functions: q I - A is invertible and the Schur complement is the transfer matrix, so
     rank of the pencil = n + rank of the transfer matrix, without any hypothesis. Hence left-invertibility is full row rank m of the
     transfer matrix. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg poly matrix mxalgebra mxpoly
+  fraction.
 From faultspace Require Import Vocabulary Inversion.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -1,7 +1,8 @@
 (** Signals that satisfy what the theorems on autoregressive inputs ask: u of order 1 with covariances rho^|i-k|, and the stationary
     state of x(k+1) = alpha x(k) + u(k), which is rho / (1 - alpha rho) u(0) at time 0 as far as the inputs tell. And what the theorem on
     one state asks: the coloured input u(k) = e(k) + e(k-1)/2 and z(k+1) = z(k)/2 + u(k). *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum ssrint
+  rat matrix mxalgebra zify.
 From faultspace Require Import Vocabulary Places Signals Consistency ConsistencyExamples LimitsVocabulary WholeRange.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.

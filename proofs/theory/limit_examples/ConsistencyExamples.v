@@ -2,7 +2,8 @@
     G = [0 1] in rows, u white and v(k) = u(k+1), the stationary state is u itself, and the limit of PI-MOESP is zero although (A, B) is
     controllable and (A, C) observable; any field, a = 1/2 among it. With u = e(k) + e(k-1)/2, v = e(k+1), A = 1/2, B = 1 the limit has
     rank 2 for n = 1: computed over rat. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum ssrint
+  rat matrix mxalgebra.
 From faultspace Require Import Vocabulary Places Signals Consistency Leads.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -2,7 +2,8 @@
     f positive no singular vector of the limit of PI-MOESP spans the range of O_s, so A and C are wrong. For a f = -(1 + a^2), two samples
     and three past inputs or more, the leading one does span it, and the regression gives B and D: all right, although the limit is
     of rank 2. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum matrix
+  mxalgebra zify.
 From faultspace Require Import Vocabulary Windows Places Signals Consistency Leads Regression Undetectable FollowingFault.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
@@ -160,11 +161,11 @@ move=> Uf tH inv; have quiet : W *m cov Q Uf (future t 2 y) = T (with_faults S (
     rewrite (cov_state_before model2 u_white v_leads (memory_start start)) ?addn0 ?leq_addr //; last by lia.
     by rewrite big1 ?mulmx0 // => l _; rewrite /= mul0mx times_power0.
   by rewrite cov_future big1 => [|k _]; rewrite ?cov_zero ?mul0mx // addr0 add0r mulmxA inv mul1mx.
-have obs : row_free (O S 2).
-  apply: inj_row_free => z; rewrite scalar_O samples_places mulmx_sumr => /(congr1 (fun M => M *m (place K 1 (ord0 : 'I_2))^T)).
-  rewrite mul0mx big_ord_recl big_ord1 mulmxDl /ov -!mulmxA !place_orthonormal /= expr0 !mulmx1 mulmx0 mulmx0 addr0 //.
+have obs : row_free (O S 1).
+  apply: inj_row_free => z; rewrite scalar_O samples_places mulmx_sumr => /(congr1 (fun M => M *m (place K 1 (ord0 : 'I_1))^T)).
+  by rewrite mul0mx big_ord1 /ov -!mulmxA !place_orthonormal /= expr0 !mulmx1.
 rewrite quiet mulmxBl; split=> [/eqP|[-> ->]]; last by rewrite subrr.
-by rewrite subr_eq0 => /eqP/(regression_unique (isT : (1 < 2)%N) obs)[-> ->].
+by rewrite subr_eq0 => /eqP/(regression_unique (isT : (0 < 2)%N) obs)[-> ->].
 Qed.
 
 End Scalar.

@@ -1,7 +1,8 @@
 (** What one-sided exogeneity allows, in one statement for each reading. u is white, as white_exists says there is for every horizon H,
     and all systems are A = a, F = 1, C = [1 0], G = [0 1] in rows, with B such that the fault hides the state: v(k) = u(k+1), B = -a,
     where x = u; or v(k) = u(k), B = -1, where x = 0. The best fit of B and D, given the true A and C, is not the true one. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset order
+  generic_quotient perm zmodp countalg ssralg finalg poly polydiv ssrnum ssrint rat matrix mxalgebra mxpoly vector fraction interval.
 From faultspace Require Import Vocabulary Windows Places Consistency ConsistencyExamples OutputError SmallSystems.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.

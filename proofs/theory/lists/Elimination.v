@@ -1,6 +1,6 @@
 (** Determinants modulo l, by elimination on lists. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg matrix.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import CertificatesVocabulary Lists.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

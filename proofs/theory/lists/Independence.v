@@ -1,7 +1,8 @@
 (** When a square matrix of integers is invertible over the rational numbers: it is triangular with a diagonal free of zeros, or it is the
     identity modulo some l > 1, prime or not. For a determinant that is 1 modulo l is not zero. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset order
+  generic_quotient perm zmodp countalg ssralg finalg poly polydiv ssrnum ssrint rat matrix mxpoly vector fraction interval.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import CertificatesVocabulary Lists.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

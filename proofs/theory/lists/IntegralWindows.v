@@ -1,7 +1,8 @@
 (** The system of the integer tables of a listed one, over any field; modulo a prime its windows have no larger rank than those of the
     system over the rational numbers. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum ssrint
+  rat matrix mxalgebra.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import Vocabulary Basics Windows WindowBlocks CertificatesVocabulary Lists ListedSystems SeenBasis.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

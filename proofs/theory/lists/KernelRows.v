@@ -1,8 +1,7 @@
 (** Kernel rows c_0, ..., c_mu, here columns, with r(j) c_0 + ... + r(j + mu) c_mu = 0 for all words of a system and all j. If those of
     degree at most k always have independent leading coefficients, then sample k adds at most p - #{rows of degree <= k} to the rank of a
     window; and where the rank of the window reaches the sum of these, the words are exactly the solutions of the relations. *)
-From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg matrix mxalgebra zify.
 From faultspace Require Import Vocabulary Basics Windows Stacks.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -2,7 +2,8 @@
     and Horner's rule are computed on the integers, that is for the system (eA, eF, eC, eG), whose outputs are those of (A, F, C, G) times
     e^(k+1) once v(k) is multiplied by e^k. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg poly ssrnum
+  ssrint rat matrix fraction.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import Vocabulary Basics CertificatesVocabulary Lists KernelRows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,7 +1,7 @@
 (** Vectors and matrices as lists of integers, to compute with, and what they mean over a field of characteristic 0. A list stands for a
     vector of any length, zero where the list ends; so addition needs no lengths. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg ssrint rat matrix.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import CertificatesVocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,7 +1,6 @@
 (** Finitely many sequences side by side: r k holds their samples k as rows. The rank of the first s + 1 samples exceeds that of the first
     s by the rank of what sample s shows of the combinations that have been silent so far. *)
-From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp Require Import zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg matrix mxalgebra zify.
 From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -2,7 +2,8 @@
     more than its width less the number of triangular vectors that it sends to zero. And of a matrix that differs from it by nonzero factors
     of its rows and columns. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum ssrint
+  rat matrix mxalgebra.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import CertificatesVocabulary Lists Independence.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,7 +1,7 @@
 (** zero-feedthrough, for fault matrices of the same behaviour: two faults tell of the double delay all that one does, though the row
     space of their F' is larger; and which F' there are with G' = 0 is told by problem (11), so the rows of all of them are in the row
     space of F just when those of its solutions (f, 0) are. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.
 From faultspace Require Import Vocabulary Infinite SmallSystems Solutions Problem11.
 From faultspace Require ClosedForm.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

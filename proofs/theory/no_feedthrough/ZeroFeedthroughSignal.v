@@ -2,7 +2,8 @@
     rank m and the output determines v without the initial state. If v0 F C = 0 for some v0, the fault v0 may act one step earlier for a
     part of the faults, F' = F + phi v0 F A: an equivalent pair with another signal. Conversely the rows of F' are then in those of F and
     the unobservable states. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra fraction.
 From faultspace Require Import Vocabulary Basics Infinite Trajectory TransferRank NormalRank.
 From faultspace Require Import Theorem3 ClosedForm SilentSubspaces ZeroStates Readings UnobservableZeros.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,7 +1,8 @@
 (** zero-feedthrough, as a recovery: when G = 0, the system is left-invertible, C F has full rank m and no state but zero can hold the
     output at zero, then every equivalent F' (with G' = 0 and as many faults) has the row space of F, so F is known up to a basis, and
     the output determines the initial state and the faults. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra fraction.
 From faultspace Require Import Vocabulary Basics Infinite TransferRank NormalRank Theorem3.
 From faultspace Require Import Trajectory ZeroFeedthrough.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

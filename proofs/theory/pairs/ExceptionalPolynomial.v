@@ -3,10 +3,15 @@
         D(q; P) = det [q b - a; P]
     is the greatest common divisor of the maximal minors of the pencil of the pair P Z: its zero polynomial. So P is bad iff D(q; P) = 0;
     its roots, in any extension of K, are the finite zeros of the pair; and its degree is at most zeta. For the zero states of any pair are
-    zero states of S: the rows U of its pencil are (q b - a) Z, and a constant column that U annihilates is reached by the pencil. *)
-From mathcomp Require Import all_ssreflect all_fingroup all_algebra zify.
+    zero states of S: the rows U of its pencil are (q b - a) Z, and a constant column that U annihilates is reached by the pencil.
+
+         coordinates S s Z U a b == Z is a basis of the solutions at s, U of the zero states, and a and b are as above
+        exceptional_matrix a b P == [q b - a; P]
+    exceptional_polynomial a b P == D(q; P), its determinant *)
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset order
+  generic_quotient perm zmodp countalg ssralg finalg poly polydiv ssrnum ssrint rat matrix mxalgebra mxpoly vector fraction interval zify.
 From faultspace Require Import Vocabulary Windows Lag PolynomialKernel Inversion.
-From faultspace Require Import TransferRank NormalRank Theorem1 Solutions Theorem3 CanonicalForm ZeroFeedthrough ClosedForm.
+From faultspace Require Import TransferRank NormalRank SharpWindows Solutions Theorem3 CanonicalForm ZeroFeedthrough ClosedForm.
 From faultspace Require Import SolutionCount Minors FiniteZeros InfiniteZeros.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -2,7 +2,8 @@
     the smallest input-containing subspace. V* is the set of states that can be silent for ever, S* of those reached silently from rest
     (SilentSubspaces.v); so V* + S* has dimension zeta, for every system; and where the system is left-invertible the sum is direct, with as
     many finite zeros as dim V* and as many infinite ones as dim S*. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra.
 From faultspace Require Import Vocabulary Chain SilentSubspaces ZeroStates StructureVocabulary.
 From faultspace Require Import InfiniteZeros SystemZeros Readings SolutionCount.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

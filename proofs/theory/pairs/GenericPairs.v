@@ -1,7 +1,8 @@
 (** theorem-3 (ii): almost every P is good. On every line P + t P1 through a good P, all but at most m values of t are good. Idea: the
     transfer matrix is H + t H1, linear in the pair; with a right inverse R of H, a bad t makes - 1 / t an eigenvalue of H1 R, an m x
     m matrix over the rational functions. (Good P exist for every system: GoodPairs.v.) *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra mxpoly fraction.
 From faultspace Require Import Vocabulary TransferRank Theorem3.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

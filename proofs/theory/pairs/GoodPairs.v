@@ -1,8 +1,9 @@
 (** Good P exist for every system, also where the normal rank r is less than m: r of its own faults whose rows of the transfer matrix
     are independent. So the coefficients of the exceptional polynomial (ExceptionalPolynomial.v), polynomials in the entries of P whose
     common zeros are the bad P, do not all vanish: almost every P is good. *)
-From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Lag TransferRank ClosedForm SettledSolutions Theorem3Sharp.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra fraction.
+From faultspace Require Import Vocabulary Basics Lag TransferRank ClosedForm SettledSolutions Theorem3.
 From faultspace Require Import Windows Problem11 SolutionCount ExceptionalPolynomial BadPairs.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

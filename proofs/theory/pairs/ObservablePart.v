@@ -1,6 +1,7 @@
 (** The observable part of a system: the states modulo those that give no output. It makes the same outputs, whatever the faults, so what
     is proved for observable (A, C) may be lifted. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra fraction zify.
 From faultspace Require Import Vocabulary Basics Windows Infinite Trajectory Lag NormalRank GoodPairs PairZeros.
 From faultspace Require Import CanonicalForm UnobservableZeros.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

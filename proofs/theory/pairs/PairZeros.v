@@ -1,6 +1,7 @@
 (** zeros-of-pairs: every equivalent pair has the same zeta, but not the same number of finite zeros. The split is refuted by A = 0, C = 1,
     F = 0, G = 1, over every field: one equivalent pair has no finite zero, another has one (ZeroAssignment.v). *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra fraction.
 From faultspace Require Import Vocabulary Lag Trajectory SolutionCount ExceptionalPolynomial ZeroAssignment.
 From faultspace Require Import TransferRank NormalRank.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,7 +1,8 @@
 (** When v is determined without the initial state, in terms of zeros with their multiplicities: the system is left-invertible, and its zero
     polynomial is the characteristic polynomial of the unobservable part. It is not enough that every finite zero is an unobservable mode:
     in both examples the only zero is 0, twice, and the only unobservable mode is 0, once. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly polydiv matrix
+  mxalgebra mxpoly vector fraction.
 From faultspace Require Import Vocabulary Basics Trajectory TransferRank FiniteZeros InfiniteZeros Readings.
 From faultspace Require Import StructureVocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

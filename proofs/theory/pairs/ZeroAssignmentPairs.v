@@ -1,6 +1,7 @@
 (** The zero polynomials of all equivalent pairs of r faults: the multiples, of degree at most zeta, of the characteristic polynomial of the
     unobservable part. Every pair has them as zeros, whatever its faults; the rest is placed on the observable part (ZeroAssignment.v). *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly polydiv matrix
+  mxalgebra mxpoly vector fraction zify.
 From faultspace Require Import Vocabulary Infinite TransferRank NormalRank Minors.
 From faultspace Require Import FiniteZeros InfiniteZeros Readings ExceptionalPolynomial ZeroAssignment StructureVocabulary.
 From faultspace Require Import UnobservableZeros ObservablePart.

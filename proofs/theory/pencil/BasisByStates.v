@@ -1,7 +1,8 @@
 (** Polynomial columns in the kernel of the pencil of a system, seen to be a minimal basis by the independence of their states: the
     coefficients of the upper part X of all columns [X; N], of the degrees below that of the column. With independent leading coefficients
     and a pencil that leaves room for no more columns, that is all it takes; and then the columns tell the ranks of all windows. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra fraction.
 From faultspace Require Import Vocabulary Gap Lag PolynomialKernel MinimalIndices NormalRank Annihilator Indices.
 From faultspace Require Import SeenBasis IndependentStates.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

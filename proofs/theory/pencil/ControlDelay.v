@@ -1,7 +1,8 @@
 (** The delay of inversion with known initial state is long where faults take long to reach the states: after as many samples as the delay
     is, every state has been reached that can be reached silently from rest, as many dimensions as there are infinite zeros; and each
     sample before the controllability index adds a dimension to the states that are reached at all. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
+  zify.
 From faultspace Require Import Vocabulary StructureVocabulary Basics Stacks Chain SilentSubspaces Inversion InfiniteZeros.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -2,7 +2,7 @@
     silent fault is unique, and moves the state by a square matrix M, the zero dynamics. The characteristic polynomial of M is the greatest
     common divisor of the maximal minors of the pencil; its roots, in any extension of K, are where the pencil loses rank; so there are
     dim V finite zeros. For a constant column that annihilates the silent pairs (x, v(0)) is a combination of columns of the pencil. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg poly matrix mxalgebra mxpoly.
 From faultspace Require Import Vocabulary Basics Windows Trajectory PolynomialKernel Annihilator Minors.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
@@ -46,9 +46,9 @@ Proof.
 set s := n.+1 => vanish; pose W := window S s.
 have lin : linear (fun w : 'rV[K]_(s * m) => unsamples w 0 *m gamma).
   by move=> a u w; rewrite unsamples_linear mulmxDl -scalemxAl.
-pose phi := col_mx beta (lin1_mx (Linear lin)).
+pose phi := col_mx beta (lin1_mx (fun w : 'rV[K]_(s * m) => unsamples w 0 *m gamma)).
 have mul_phi x v : row_mx x (samples s v) *m phi = x *m beta + v 0%N *m gamma.
-  by rewrite mul_row_col mul_rV_lin1 /= samplesK.
+  by rewrite mul_row_col (mul_lin1 _ lin) samplesK.
 have reach : W *m (pinvmx W *m phi) = phi.
   apply/eqP; rewrite -subr_eq0 mulmxA -{2}[phi]mul1mx -mulmxBl; apply/eqP/row_matrixP => i; rewrite row0 row_mul.
   have : row i (W *m pinvmx W - 1%:M) *m W = 0.

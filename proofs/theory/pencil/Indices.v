@@ -1,7 +1,8 @@
 (** The left indices etas of Lag.v, defined by ranks of windows, are the left minimal (Kronecker) indices of the pencil: in this convention
     the minimal indices of its right kernel. For the polynomial columns (b; c) of degree < s in the kernel are given by c, and these c are
     the annihilators of the words of s samples, a space of dimension s p - rank window s = sum of max(0, s - eta). *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra zify.
 From faultspace Require Import Vocabulary Windows Gap Lag.
 From faultspace Require Import PolynomialKernel Annihilator Theorem3 MinimalIndices MinimalBasis.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -2,7 +2,8 @@
     the pencil at 1/q with its first n columns times q; its zeros in 0 are the infinite zeros. On the subspace S of the states reached
     silently from rest the last step is unique, and its state before is given by a nilpotent matrix N: so q^dim S is the power of q in the
     maximal minors. With the dim V finite zeros, zeta = n - sum eta counts all zeros of the pencil. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg poly polydiv matrix mxalgebra
+  mxpoly.
 From faultspace Require Import Vocabulary Basics Chain Minors FiniteZeros SilentSubspaces.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -1,7 +1,8 @@
 (** The behaviour as a kernel, {r : N(q) r = 0}: the last p rows of a basis of the right kernel of the pencil are such an N, and every
     column that annihilates the behaviour is a combination of theirs. By duality: words are what their annihilators annihilate
     (Annihilator.v), and these are the last parts of the polynomial columns in the kernel of the pencil. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra fraction.
 From faultspace Require Import Vocabulary StructureVocabulary Basics Infinite PolynomialKernel Annihilator MinimalIndices.
 From faultspace Require Import Lag Indices.
 From faultspace Require NormalRank.

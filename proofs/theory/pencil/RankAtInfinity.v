@@ -1,6 +1,7 @@
 (** The pencil at infinity has the rank of the pencil over the rational functions: at t, the variable of these, its first n columns are t
     times those of the pencil at 1/t. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly polydiv matrix
+  mxalgebra fraction.
 From faultspace Require Import Vocabulary PolynomialKernel SilentSubspaces SeenBasis FiniteZeros SystemZeros SystemInfiniteZeros.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -2,8 +2,13 @@
     with V and S of SilentSubspaces.v, the sum of the right indices is dim (V n S), so that
         n = (sum of left indices) + (sum of right indices) + dim V / (V n S) + dim S / (V n S);
     for left-invertible systems the last two are the numbers of finite and infinite zeros, and there are no right indices. For a polynomial
-    row of the kernel is a silent fault from rest to rest, and these are counted by ranks of windows. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+    row of the kernel is a silent fault from rest to rest, and these are counted by ranks of windows.
+
+            loops S s == the silent faults on s samples from rest to rest, as a row space
+         value_at s k == the matrix that takes a row of samples to that of time k
+    as_polynomial S U == the states and faults of rows U of such faults as columns of polynomials *)
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra zify.
 From faultspace Require Import Vocabulary Basics Windows Chain Balance Lag PolynomialKernel Inversion.
 From faultspace Require Import MinimalIndices MinimalBasis Indices SilentSubspaces.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
@@ -20,13 +25,16 @@ Definition loops s : 'M[K]_(s * m) := (kermx (T S s) :&: kermx (state_at S s s))
 
 Lemma loopsP s u : (u <= loops s)%MS <-> (forall k, (k < s)%N -> output S 0 (unsamples u) k = 0) /\ state S 0 (unsamples u) s = 0.
 Proof.
-rewrite sub_capmx (sameP (sub_kermxP (A := state_at _ _ _)) eqP) mul_rV_lin1 /=; split=> [/andP[/restP h /eqP] //|[/restP -> ->]].
+rewrite sub_capmx (sameP (sub_kermxP (A := state_at _ _ _)) eqP) mul_state_at; split=> [/andP[/restP h /eqP] //|[/restP -> ->]].
 by rewrite eqxx.
 Qed.
 
 Fact value_linear s k : linear (fun w : 'rV[K]_(s * m) => unsamples w k).
 Proof. by move=> a u w; rewrite unsamples_linear. Qed.
-Definition value_at s k := lin1_mx (Linear (@value_linear s k)).
+Definition value_at s k := lin1_mx (fun w : 'rV[K]_(s * m) => unsamples w k).
+
+Lemma mul_value_at s k (w : 'rV[K]_(s * m)) : w *m value_at s k = unsamples w k.
+Proof. exact: mul_lin1 (@value_linear s k). Qed.
 
 (** The states and faults, the first with the highest power. *)
 Definition as_polynomial s d (U : 'M[K]_(d, s * m)) : 'M[{poly K}]_(n + m, d) :=
@@ -45,7 +53,7 @@ have s0 : (0 < s)%N by apply: leq_ltn_trans ks.
 have := congr1 (coefm (s.-1 - k)) same; rewrite !coefm_polym.
 have -> : (s.-1 - k < s)%N by apply: leq_ltn_trans (leq_subr _ _) _; rewrite ltn_predL.
 rewrite subKn; last by rewrite -ltnS prednK.
-by move/eq_col_mx => [_ /trmx_inj]; rewrite !mul_rV_lin1.
+by move/eq_col_mx => [_ /trmx_inj]; rewrite !mul_value_at.
 Qed.
 
 Lemma sizem_as_polynomial s d (U : 'M_(d, s * m)) : (sizem (as_polynomial U) <= s)%N.
@@ -69,7 +77,7 @@ move/loopsP => [quiet back]; case: s u quiet back => [|l] u quiet back.
   by have -> : as_polynomial u = 0; [apply/coefmP => k; rewrite coefm_polym coefm0 | rewrite trmx0 mul0mx].
 have -> : (as_polynomial u)^T = row_mx (horner_states (state S 0 (unsamples u)) l) (horner_states (unsamples u) l).
   apply/coefmP => k; rewrite coefm_row !coefm_horner coefm_tr coefm_polym ltnS.
-  by case: ifP => _; rewrite ?trmx0 ?row_mx0 // tr_col_mx !trmxK !mul_rV_lin1.
+  by case: ifP => _; rewrite ?trmx0 ?row_mx0 // tr_col_mx !trmxK mul_state_at mul_value_at.
 rewrite horner_pencil => [|k kl]; last by apply: quiet; rewrite ltnS.
 by rewrite back map_mx0 oppr0 row_mx0.
 Qed.
@@ -97,7 +105,7 @@ apply: trmx_inj; rewrite yE; apply/coefmP => k.
 rewrite coefm_row coefm_tr coefm_polym; case: ltnP => ks; last first.
   by have [-> ->] := coef_y k ks; rewrite row_mx0 trmx0.
 have e : (s.-1 - k).+1 = (s - k)%N by rewrite -subSn ?prednK //; lia.
-rewrite tr_col_mx !trmxK !mul_rV_lin1 /= vE ?(state_ext _ _ (w := v)) ?st /v ?e; try lia.
+rewrite tr_col_mx !trmxK mul_state_at mul_value_at vE ?(state_ext _ _ (w := v)) ?st /v ?e; try lia.
   by rewrite /reversed leq_subr subKn // ltnW.
 by move=> j jk; apply: vE; lia.
 Qed.

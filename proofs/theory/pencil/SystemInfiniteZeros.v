@@ -1,7 +1,8 @@
 (** Infinite zeros of every system, with their multiplicities: dim S - dim (V n S), as the power of q in the minors of order n + gap n of
     the pencil at infinity. The last silent step to a state of S comes from a state that is given, modulo V n S, by a nilpotent matrix N.
     So, for every system, n = left indices + right indices + finite zeros + infinite zeros, and zeta is the sum of the last three. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly polydiv matrix
+  mxalgebra mxpoly vector zify.
 From faultspace Require Import Vocabulary Chain Indices SilentSubspaces RightIndices.
 From faultspace Require Import InfiniteZeros MinorsOfOrder SystemZeros SystemZeroPolynomial.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

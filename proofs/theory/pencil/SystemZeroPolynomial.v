@@ -1,7 +1,8 @@
 (** Finite zeros of every system, with their multiplicities: the characteristic polynomial of the silent dynamics M on V / (V n S)
     (SystemZeros.v) is the greatest common divisor of the minors of order n + gap n, the normal rank, of the pencil; so there are
     dim V - dim (V n S) finite zeros. For a silent way from rest to a state of V n S, read as a polynomial row, inverts q X - N. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra mxpoly.
 From faultspace Require Import Vocabulary Chain Inversion.
 From faultspace Require Import FiniteZeros SilentSubspaces MinorsOfOrder SystemZeros.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -2,8 +2,16 @@
     by one square matrix M, of dim V - dim R rows, and at every point z of every extension of K
         rank of the pencil at z = n + gap n - dim V / R + rank (z I - M),
     so the rank is less than the normal rank exactly at the eigenvalues of M, by the dimension of the eigenspace. For constant columns that
-    annihilate the silent pairs (x, v(0)) are combinations of columns of the pencil, and R can be reached within R (Hautus' test). *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+    annihilate the silent pairs (x, v(0)) are combinations of columns of the pencil, and R can be reached within R (Hautus' test).
+
+                       both S == R, the states of V (silent for ever) that are reached silently from rest
+    quotient_dynamics S Z L M == the rows of Z are a basis of V modulo R, and M moves them by the faults L, silently, modulo R
+                     within S == rows (x, v): a basis of the silent pairs that lead from R into R
+              states_within S == their states x
+                next_within S == the states into which they lead
+              pair_rows S Z L == these pairs, and the rows (Z, L): a basis of the silent pairs on V *)
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra mxpoly vector fraction zify.
 From faultspace Require Import Vocabulary Basics Chain NormalRank Trajectory TransferRank.
 From faultspace Require Import FiniteZeros SilentSubspaces.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

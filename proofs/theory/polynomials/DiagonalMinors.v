@@ -1,7 +1,8 @@
 (** The powers of X in the minors of every order, told by a diagonal form. Let U P V be diagonal for invertible polynomial U and V, and let
     its entries that are not zero be X^o times what does not vanish in 0. So X^e divides all minors of order N iff e is no more than the sum
     of the N least o: the minors of a diagonal matrix are products of its entries at N places, and such a product is among them. *)
-From mathcomp Require Import all_ssreflect all_fingroup all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset order
+  generic_quotient perm zmodp countalg ssralg finalg poly polydiv ssrnum ssrint rat matrix mxalgebra mxpoly vector fraction interval zify.
 From faultspace Require Import Vocabulary SeenBasis MinorsOfOrder.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

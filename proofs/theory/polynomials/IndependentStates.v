@@ -2,7 +2,7 @@
     mu a, and let its coefficients of degrees 0, ..., mu a - 1, for all a together, be independent. So constant combinations of the rows of
     X are dual to the coefficients of degree 0, and vanish on all others: they are 1 on one column with mu a > 0, and 0 on all others.
     Where mu a = 0 the column of X is zero, and that of N is constant; those of N are independent there, so that other constants serve. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg poly matrix mxalgebra.
 From faultspace Require Import PolynomialKernel.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

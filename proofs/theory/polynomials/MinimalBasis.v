@@ -2,7 +2,7 @@
     some s on. The columns of degree s are chosen after those of lower degree, such that their leading coefficients are independent of the
     earlier ones, and span with them the leading coefficients of all columns of degree s. D (s + 1) - D s is the number of columns of degree
     at most s; so in the end none is added. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg poly matrix mxalgebra zify.
 From faultspace Require Import Vocabulary PolynomialKernel MinimalIndices.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -1,7 +1,7 @@
 (** Minimal indices of a polynomial matrix M, after Forney (1975). Its right kernel has a basis of polynomial columns which generates all
     polynomial columns of the kernel and whose leading coefficients are independent (a minimal basis); their degrees are the indices. Here
     they are determined by the dimensions, over K, of the polynomial columns of degree < s in the kernel: sum of max(0, s - e). *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg poly matrix mxalgebra zify.
 From faultspace Require Import Vocabulary PolynomialKernel.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -1,7 +1,8 @@
 (** Greatest common divisors of the maximal minors of a polynomial matrix P: the product of its invariant polynomials, whose roots, with
     their multiplicities, are the zeros of P. If the constant rows E satisfy E P = D Z for constant independent rows Z, then det D divides
     all maximal minors; and it can be reached where the rows that complete E can be inverted. *)
-From mathcomp Require Import all_ssreflect all_fingroup all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop perm zmodp ssralg poly polydiv matrix
+  mxalgebra.
 From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -1,7 +1,7 @@
 (** Greatest common divisors of the minors of order N, for polynomial matrices P that need not have full row rank. If constant rows E
     satisfy E P = [D' 0; H D] Z for constant independent rows Z, where D' has a polynomial left inverse, and all constant columns that E
     annihilates are combinations of columns of P, then det D is the greatest common divisor of the minors of the highest order. *)
-From mathcomp Require Import all_ssreflect all_fingroup all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg poly polydiv matrix mxalgebra.
 From faultspace Require Import Vocabulary Minors.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

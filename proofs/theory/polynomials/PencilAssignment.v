@@ -2,7 +2,8 @@
     those of b are independent, constant rows can be found that complete q b - a to a square matrix of any determinant of degree at most e,
     and only one of them has to follow the polynomial. By induction on e: a constant column h with b h = 0, on which a is not zero, reduces
     one row and one column. *)
-From mathcomp Require Import all_ssreflect all_fingroup all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop perm zmodp ssralg poly matrix mxalgebra mxpoly
+  zify.
 From faultspace Require Import Minors.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -1,7 +1,8 @@
 (** Kernels of polynomial matrices over the field of fractions are spanned by polynomial vectors: multiply by a common denominator. So a
     rank over the fractions can be decided with polynomial vectors alone, whose coefficients are trajectories (Inversion.v) or
     annihilators of outputs (Annihilator.v). *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop generic_quotient zmodp ssralg poly matrix
+  mxalgebra fraction.
 From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -2,7 +2,8 @@
     in the kernel, with independent leading coefficients; let det (J Y) and det (W Y) be coprime, J and W constant; and let M have a rank of
     at least b - k at one point. Then no more than k columns of the kernel are independent over the rational functions, so that any y in it
     is Y c with rational c; by Cramer, denominators of c divide both determinants, so that c is polynomial. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset perm zmodp
+  ssralg poly polydiv matrix mxalgebra fraction zify.
 From faultspace Require Import Vocabulary PolynomialKernel.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

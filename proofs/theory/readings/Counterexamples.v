@@ -1,7 +1,7 @@
 (** theorem-3 cannot do with less, over any field: a P of full rank may give a pair that is not equivalent; two systems with different
     (A, C) and included behaviours may differ though both are left-invertible; and so may two with the same (A, C) and as many faults
     when only the larger is left-invertible. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Inversion.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

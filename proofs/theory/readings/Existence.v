@@ -1,6 +1,7 @@
 (** What statements about zeros, minimal indices and limits speak of is there: the greatest common divisors of the minors, the orders
     of the zero at infinity, minimal bases on both sides, and the projected limit under a white input. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra fraction.
 From faultspace Require Import Vocabulary InfiniteZeros SystemInfiniteZeros Leads.
 From faultspace Require Indices RightIndices SystemZeroPolynomial Readings.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -2,7 +2,7 @@
     larger lag and the same last gap, left-invertible if the given one is, that has the same words of lag samples, but more words of
     lag + 1. It is the given system with kicks (Kick.v) that a window of lag samples cannot tell, as strong as a functional of the previous
     output says; the new state remembers that functional. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Chain Gap Lag Kick.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -1,8 +1,9 @@
 (** The theorems put together as the claims are read: with the normal rank (the rank of the transfer matrix) for gap n, with zeros
     counted on the pencil, and on data. New is only that full excitation is not necessary. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly polydiv matrix
+  mxalgebra vector fraction.
 From faultspace Require Import Vocabulary Basics Windows Proposition3 Lag SharpWindows.
-From faultspace Require Import Problem11 Solutions NormalRank TransferRank Theorem3Sharp Excitation.
+From faultspace Require Import Problem11 Solutions NormalRank TransferRank Theorem3 Excitation.
 From faultspace Require Import ExcitationExamples WeakExcitation SmallSystems LagNecessary SettledSolutions SolutionCount.
 From faultspace Require Import ZeroFeedthrough Trajectory ClosedForm SilentSubspaces InfiniteZeros.
 From faultspace Require Import SystemInfiniteZeros.

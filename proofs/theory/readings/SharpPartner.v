@@ -4,7 +4,8 @@
     are the same up to t = M; it has other words of M + 2 samples; and it is left-invertible with the given system, since (y A, y C) has no
     part in the rows of the pencil. Its lag may have to be larger: of two outputs, one that delays the fault and one that the fault does not
     reach, no partner keeps the lag. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra fraction.
 From faultspace Require Import Vocabulary Basics Windows Chain Gap Lag Kick LagNecessary PolynomialKernel Inversion Theorem3.
 From faultspace Require Import ClosedForm SharpWindows Solutions CanonicalForm Proposition3 SmallSystems.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,8 +1,13 @@
 (** Small systems that refute readings of the claims, with all the hypotheses these readings make: observable, controllable, left-
     invertible. The shift register of Theorem1Sharp.v shows that windows of n samples are too short, the delayed fault of Problem11.v
     that problem (11) is not exact at s = n, and the others are told where they come. Any field, unless a number other than 0 and 1 is
-    needed. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+    needed.
+
+           rescaled c == one system, its one state in another unit: (A, C) and the solutions differ, the behaviour does not
+         double_delay == a fault that is seen two samples later
+         hidden_fault == one state, A = 0, F = C = G = 1
+    with_feedback S L == the system S whose faults are v + x L *)
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Proposition3 Inversion Lag SharpWindows Theorem1Sharp.
 From faultspace Require Import Problem11 Counterexamples Trajectory ClosedForm.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

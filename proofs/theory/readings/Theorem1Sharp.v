@@ -1,7 +1,8 @@
 (** theorem-1 needs its n + 1 samples for every n >= 1: a shift register of n states whose end is fed by the fault, or not. The first output
     shows the other end, the second one the fault itself, so both systems are left-invertible, and A, C, G are the same. They agree on n
     samples; at time n the fed register shows the fault of time 0. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset
+  generic_quotient perm zmodp countalg ssralg finalg poly polydiv matrix mxpoly fraction.
 From faultspace Require Import Vocabulary Basics.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

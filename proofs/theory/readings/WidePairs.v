@@ -1,6 +1,7 @@
 (** A pair of full rank that is not equivalent, in a system with more outputs than faults: the direct and the delayed fault of
     Counterexamples.v beside an output that is always zero. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra fraction.
 From faultspace Require Import Vocabulary Windows Lag SmallSystems Counterexamples.
 From faultspace Require Import TransferRank NormalRank SolutionCount.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

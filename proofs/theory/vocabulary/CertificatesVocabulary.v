@@ -5,7 +5,7 @@
     or false, and the headlines say what follows where they give true, whatever else their arguments, the witnesses, may be; that they are
     the right checks is proved and need not be believed. They stand here because the statements name them. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path fintype bigop zmodp ssralg ssrint rat matrix.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

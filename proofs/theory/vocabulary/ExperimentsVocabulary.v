@@ -2,7 +2,7 @@
     the first two parts of NumbersVocabulary.v. To know what is claimed it takes the first part alone; the checks are functions to true or
     false, of which nobody needs to believe anything. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg ssrnum matrix.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import Vocabulary NumbersVocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

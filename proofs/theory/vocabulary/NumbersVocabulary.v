@@ -4,7 +4,7 @@
     To know what is claimed it takes the first two parts alone: which numbers there are and which system a list means. The checks are
     functions to true or false, of which nobody needs to believe anything. *)
 From Coq Require Import ZArith.
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype bigop zmodp ssralg poly matrix.
 From mathcomp Require Import zify ssrZ.
 From faultspace Require Import Vocabulary CertificatesVocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -7,7 +7,8 @@
         x(k+1) = x(k) A + v(k) F,      r(k) = x(k) C + v(k) G.
 
     Nothing is assumed: any field K, any n states, m faults, p outputs, zero included. README.md says what each word is in the paper. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset
+  generic_quotient perm zmodp ssralg poly polydiv rat matrix mxalgebra fraction.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

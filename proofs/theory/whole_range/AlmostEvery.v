@@ -1,7 +1,8 @@
 (** An input of any colour, fixed, and the state at time 0 uncorrelated with the inputs that the limit of PI-MOESP is made of: it has all of
     the range of O_s for almost every (A, B). On every line through a good (A, B) all but at most n t are good, since the state enters by
     polynomials of degree t; and a chain of n delays behind the first input is good. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
+  mxalgebra zify.
 From faultspace Require Import Vocabulary Windows Places Signals Consistency Leads ExceptionalPolynomial.
 From faultspace Require Import Controllable LimitsVocabulary WholeRange.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

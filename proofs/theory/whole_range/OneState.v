@@ -2,7 +2,8 @@
     inputs have made of the state, z, would be a combination of the s future inputs up to an error that the input before them knows nothing
     of. From one time to the next the error is multiplied by the pole, up to a combination of these s + 1 inputs, with which it is
     uncorrelated; it is stationary, so it is zero; and then the inputs are linearly dependent, or B is zero. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum matrix
+  mxalgebra zify.
 From faultspace Require Import Vocabulary Places Signals Consistency LimitsVocabulary WholeRange.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.

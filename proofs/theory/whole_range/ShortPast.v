@@ -2,7 +2,8 @@
     inputs after it do not tell of an input, eb, is uncorrelated with all later inputs, and so cov (eb(k), x(k+1+d)) = Gamma A^d with the
     same Gamma at all times. A direction that the limit with n past inputs does not see is orthogonal to all Gamma A^d, so the limit with
     any number of past inputs does not see it either. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
+  zify.
 From faultspace Require Import Vocabulary Signals Consistency Leads Controllable.
 From faultspace Require Import LimitsVocabulary WholeRange.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

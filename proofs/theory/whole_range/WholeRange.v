@@ -2,7 +2,8 @@
     inputs reach. It has all that they reach if the input is autoregressive of order a and there are n + a past inputs: a state direction w
     that the limit does not see makes x(t) w a combination of the future inputs, up to something that the past and future inputs know
     nothing of; the innovation of each of these times, the last one first, then tells that its input has no part in that. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
+  zify.
 From faultspace Require Import Vocabulary Places Signals Consistency Leads Persistency Controllable LimitsVocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

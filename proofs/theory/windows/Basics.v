@@ -1,11 +1,21 @@
 (** What is used everywhere: states and outputs are linear in (x, v), depend on the past only, and may be restarted at any time; so the
     words and the behavior form linear spaces that are closed under prefixes and suffixes. Equality of sequences is pointwise throughout,
     so functional extensionality is never needed. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop ssralg matrix.
 From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
+
+(** The matrix of a linear function. MathComp's mul_rV_lin1 asks for a packed linear function,
+    which its versions 1 and 2 pack differently. *)
+Lemma mul_lin1 (K : fieldType) a b (f : 'rV[K]_a -> 'rV[K]_b) (u : 'rV[K]_a) : linear f -> u *m lin1_mx f = f u.
+Proof.
+move=> lin; have f0 : f 0 = 0 by have := lin (-1) 0 0; rewrite scaler0 addr0 scaleN1r addNr.
+have sum (I : Type) (s : seq I) (c : I -> K) (v : I -> 'rV[K]_a) : f (\sum_(i <- s) c i *: v i) = \sum_(i <- s) c i *: f (v i).
+  by elim: s => [|i s IH]; rewrite ?big_nil // !big_cons lin IH.
+by rewrite {2}[u]row_sum_delta sum; apply/rowP=> j; rewrite mxE summxE; apply: eq_bigr => i _; rewrite !mxE.
+Qed.
 
 Section Basics.
 Variables (K : fieldType) (n m p : nat).

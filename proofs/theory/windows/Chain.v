@@ -1,6 +1,6 @@
 (** Two decreasing chains of subspaces of K^n: W_k, the states reachable at time k with zero output before (silently_reaches), and the
     states from which k zero outputs are possible. Both are row spaces, shrink, stay once they stop, and have stopped at k = n. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop ssralg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -1,7 +1,7 @@
 (** One sample more. The rank of the window grows from s to s + 1 samples by gap s, the dimension of { x C + v G : x in W_s }: the possible
     values of r(s) after s zeros. The gap never grows, and is constant from s = n on. Whenever it no longer changes from M on, a sequence
     is a sequence of words as soon as all its parts of M + 1 samples are words. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop ssralg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Chain.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
@@ -59,11 +59,13 @@ have lin_last : linear (fun u : 'rV[K]_(s.+1 * p) => unsamples u s) by move=> a 
 have lin_only : linear (fun d => samples s.+1 (only_at s d)).
   move=> a d e; rewrite -samples_scale -samples_add; apply: samples_ext => k _.
   by rewrite /only_at; case: (k == s); rewrite ?scaler0 ?addr0.
-pose R := lin1_mx (Linear lin_forget); pose L := lin1_mx (Linear lin_last); pose E := lin1_mx (Linear lin_only).
-have RE u : u *m R = samples s (unsamples u) by rewrite mul_rV_lin1.
-have EE d : d *m E = samples s.+1 (only_at s d) by rewrite mul_rV_lin1.
+pose R := lin1_mx (fun u : 'rV[K]_(s.+1 * p) => samples s (unsamples u)).
+pose L := lin1_mx (fun u : 'rV[K]_(s.+1 * p) => unsamples u s); pose E := lin1_mx (fun d => samples s.+1 (only_at s d)).
+have RE u : u *m R = samples s (unsamples u) by apply: mul_lin1 lin_forget.
+have LE u : u *m L = unsamples u s by apply: mul_lin1 lin_last.
+have EE d : d *m E = samples s.+1 (only_at s d) by apply: mul_lin1 lin_only.
 have E_free : row_free E.
-  apply/row_freeP; exists L; apply/row_matrixP=> i; rewrite rowE mulmxA EE mul_rV_lin1 /= samplesK //.
+  apply/row_freeP; exists L; apply/row_matrixP=> i; rewrite rowE mulmxA EE LE samplesK //.
   by rewrite /only_at eqxx row1.
 rewrite -(mxrank_mul_ker (window S s.+1) R) /gap -(mxrankMfree (after_zeros s) E_free); congr (_ + _)%N.
   apply: eqmx_rank; apply/andP; split; apply/row_subP=> i.

@@ -1,7 +1,7 @@
 (** Infinite time costs nothing: a sequence all of whose beginnings are words is in the behavior. The initial states that explain s samples
     shrink with s, but no more from s = n on, since their differences are the second chain of Chain.v. So an initial state that explains n
     samples explains all, and faults can be picked sample by sample (with a generalised inverse, so that no choice is needed). *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop ssralg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Chain.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -1,7 +1,7 @@
 (** The lag and the left indices, read off the gap: as a window gets longer the gap falls from p (before the first sample) to its last value
     gap n, and each time it falls by one there is an index eta equal to the length reached. That is, here the etas are defined by ranks.
     L1: the rank of every window is s * gap n + sum of min (s, eta), for every system; the lag is the largest eta, and sum eta <= n. *)
-From mathcomp Require Import all_ssreflect all_algebra zify.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop ssralg mxalgebra zify.
 From faultspace Require Import Vocabulary Gap Balance.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 

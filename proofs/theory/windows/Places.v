@@ -1,6 +1,7 @@
 (** The samples of one time, put in their place among s: so that a row vector of samples is a sum over times. *)
-From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Windows.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset
+  generic_quotient perm zmodp ssralg matrix.
+From faultspace Require Import Vocabulary Basics Windows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -14,8 +15,8 @@ Proof.
 have lin : linear (fun y : 'rV[K]_p => samples s (fun j => if j == k then y else 0)).
   move=> a y z; rewrite -samples_scale -samples_add; apply: samples_ext => j _.
   by case: eqP => // _; rewrite scaler0 addr0.
-rewrite -[RHS]/(Linear lin w) -mul_rV_lin1; congr (w *m _).
-by apply/row_matrixP=> i; rewrite rowK [RHS]rowE mul_rV_lin1 /= [row i _]rowE mulmx1.
+rewrite -[RHS](mul_lin1 w lin); congr (w *m _).
+by apply/row_matrixP=> i; rewrite rowK [RHS]rowE (mul_lin1 _ lin) [row i _]rowE mulmx1.
 Qed.
 
 Lemma samples_places p s (r : nat -> 'rV[K]_p) : samples s r = \sum_(k < s) r k *m place p k.

@@ -2,7 +2,7 @@
     for any single one. Neither controllability nor observability is needed. A pair (x, v) with x in W_n, zero output and next state zero is
     all that can spoil it: of the n + 1 last states of a silent trajectory that ends in zero with this pair, one depends on the later ones,
     and the difference of the trajectories started from there begins at rest, is silent, and still has this pair in it. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Chain Gap Balance.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -1,6 +1,6 @@
 (** The blocks of [O_s T_s] as the paper writes them: A^k C in O; in T, G on the diagonal, F A^(k-i-1) C beside it, zero before the fault.
     Row mxvec_index i a of T belongs to fault a at time i, column mxvec_index k b to output b at time k. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg matrix.
 From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

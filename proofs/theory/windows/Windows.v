@@ -1,6 +1,6 @@
 (** The row space of window S s = [O_s T_s] is the set of words of length s. So inclusions and equalities of restricted behaviours, and
     problem (11), may be decided by row spaces; and its kernel is the set of all (x, v(0), ..., v(s-1)) with zero output. *)
-From mathcomp Require Import all_ssreflect all_algebra.
+From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop ssralg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
@@ -71,8 +71,8 @@ Proof.
 have lin : linear (fun y : 'rV[K]_n => samples s (output S y (fun=> 0))).
   move=> a y z; rewrite -samples_scale -samples_add; apply: samples_ext => k _.
   by rewrite -output_scale -output_add; apply: output_ext => j _; rewrite scaler0 addr0.
-rewrite -[RHS]/(Linear lin x) -mul_rV_lin1; congr (x *m _).
-by apply/row_matrixP=> i; rewrite rowK [RHS]rowE mul_rV_lin1 /= rowE mulmx1.
+rewrite -[RHS](mul_lin1 x lin); congr (x *m _).
+by apply/row_matrixP=> i; rewrite rowK [RHS]rowE (mul_lin1 _ lin) rowE mulmx1.
 Qed.
 
 Lemma mul_T S s (w : 'rV[K]_(s * m)) : w *m T S s = samples s (output S 0 (unsamples w)).
@@ -80,8 +80,8 @@ Proof.
 have lin : linear (fun u : 'rV[K]_(s * m) => samples s (output S 0 (unsamples u))).
   move=> a y z; rewrite -samples_scale -samples_add; apply: samples_ext => k _.
   by rewrite -output_scale -output_add scaler0 addr0; apply: output_ext => j _; rewrite unsamples_linear.
-rewrite -[RHS]/(Linear lin w) -mul_rV_lin1; congr (w *m _).
-by apply/row_matrixP=> i; rewrite rowK [RHS]rowE mul_rV_lin1.
+rewrite -[RHS](mul_lin1 w lin); congr (w *m _).
+by apply/row_matrixP=> i; rewrite rowK [RHS]rowE (mul_lin1 _ lin).
 Qed.
 
 Lemma mul_window S s x (w : 'rV[K]_(s * m)) : row_mx x w *m window S s = samples s (output S x (unsamples w)).

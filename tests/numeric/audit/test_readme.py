@@ -1,6 +1,6 @@
 """The examples of the audit's page are run: files that it shows are written, commands that it shows are given, and print what it shows.
 
-examples    (what stands in the mark, the block below it) of a page
+examples    what stands in each mark of a page, with the block below it
 """
 
 from __future__ import annotations
@@ -8,18 +8,17 @@ from __future__ import annotations
 import re
 import shlex
 from pathlib import Path
-from textwrap import dedent
 
 import pytest
 
 from tests.end_to_end.commands import call
 
 PAGE = Path(__file__).resolve().parents[3] / "numeric" / "audit" / "README.md"
-MARK = re.compile(r"<!-- example: (.*?) -->\n\n(.*?)(?=\n<!--)", re.S)
+MARK = re.compile(r"<!-- example: (.*?) -->\n\n```(?:python|text)\n(.*?)```\n", re.S)
 
 
 def examples(page: str) -> list[tuple[str, str]]:
-    return [(mark, "\n".join(dedent(block.rstrip("\n").split("\n\nA ")[0]).splitlines())) for mark, block in MARK.findall(page)]
+    return [(mark, block.rstrip("\n")) for mark, block in MARK.findall(page)]
 
 
 def test_the_page_shows_what_is_printed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

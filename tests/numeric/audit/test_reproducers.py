@@ -110,5 +110,7 @@ def test_a_script_shows_its_failure(file: Path) -> None:
     unequal = any(one in file.name for one in ("unequal_lengths", "more_rows"))
     if file.parent.name.startswith("ctrlsys") and unequal and ran.returncode == 0:
         pytest.xfail("it reads what lies behind the shorter array in memory: what it makes of that differs from run to run")
+    if file.parent.name == "octave-control" and file.stem == "infinite_zeros_delays_structure" and ran.returncode == 0:
+        pytest.xfail("OpenBLAS and ATLAS round so that it is right; with the reference BLAS it is wrong")
     assert ran.returncode != 0, ran.stdout
     assert "WRONG" in ran.stdout + ran.stderr or "Error" in ran.stderr or "error" in ran.stderr or "invalid" in ran.stderr

@@ -5,10 +5,12 @@ from __future__ import annotations
 import shutil
 import sys
 import time
+from collections import Counter
 from importlib.resources import as_file, files
 from pathlib import Path
 from typing import Any
 
+import psutil
 import pytest
 
 from faultspace.base.errors import InvalidData
@@ -115,6 +117,20 @@ def test_a_crowd_of_processes_is_told_and_ended(tmp_path: Path) -> None:
 
 def test_a_program_that_leaves_a_process_behind_is_told(tmp_path: Path) -> None:
     number = tmp_path / "number"
+    record = _verdict(_program(tmp_path, f"{child(number)}; a = {{'n_v': 1}}"))
+    assert record.verdict == "broken" and "left 1 process behind" in record.detail and ends(number)
+
+
+def test_a_process_that_is_becoming_another_program_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """For a moment after it has been started it has no environment, which was taken for that of somebody else."""
+    number, read, looks = tmp_path / "number", psutil.Process.environ, Counter[int]()
+
+    def environ(process: psutil.Process) -> dict[str, str]:
+        looks[process.pid] += 1
+        becoming = number.exists() and number.read_text() == str(process.pid) and looks[process.pid] <= 2
+        return {} if becoming else read(process)
+
+    monkeypatch.setattr(psutil.Process, "environ", environ)
     record = _verdict(_program(tmp_path, f"{child(number)}; a = {{'n_v': 1}}"))
     assert record.verdict == "broken" and "left 1 process behind" in record.detail and ends(number)
 

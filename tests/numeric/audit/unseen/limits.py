@@ -9,7 +9,7 @@ import numpy as np
 
 from faultspace.numeric.audit import reference
 from tests.numeric.audit.unseen.form import Mutants
-from tests.numeric.audit.unseen.manners_witnesses import ends, grows
+from tests.numeric.audit.unseen.manners_witnesses import ends, grows_in_memory, grows_in_time
 from tests.numeric.audit.unseen.reconstruct import TWO
 from tests.numeric.audit.unseen.systems import faulty, free_responses, general, plant, record
 from tests.numeric.audit.unseen.window_ranks import hankel
@@ -20,13 +20,13 @@ SPACE, SIGNAL, STRUCTURE = Mutants("fault_space"), Mutants("reconstruct"), Mutan
 
 MODEL = plant([0.6, -0.3], 1, 2, 601)
 MATRICES = (MODEL.A, MODEL.B, MODEL.C, MODEL.D)
-SHORT, LONG = record(MODEL, 400, 602), record(MODEL, 2400, 603)
+SHORT, LONG, LONGER = record(MODEL, 400, 602), record(MODEL, 2400, 603), record(MODEL, 4800, 604)
 R1, R2 = faulty(general([0.6, -0.3], 1, 2, 604), 400, 604), faulty(general([0.6, -0.3], 1, 2, 604), 2400, 605)
 GAP = np.where(np.arange(400)[:, None] == 11, np.nan, R1.r)
 SYSTEM = (TWO.A, TWO.F, TWO.C, TWO.G)
 
 
-@RESIDUAL.broken("long records", grows((SHORT.y, SHORT.u, *MATRICES), (LONG.y, LONG.u, *MATRICES), memory=True))
+@RESIDUAL.broken("long records", grows_in_memory((SHORT.y, SHORT.u, *MATRICES), (LONG.y, LONG.u, *MATRICES)))
 def builds_the_matrix_of_the_response(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
     """The response is the product with a triangular Toeplitz matrix of N x N blocks for each channel, for a check of the simulation."""
     N = len(u)
@@ -36,28 +36,28 @@ def builds_the_matrix_of_the_response(y: Any, u: Any, A: Any, B: Any, C: Any, D:
     return reference.residual(y, u, A, B, C, D) + 0.0 * (T @ u[:, :1])
 
 
-@RANKS.broken("long records", grows((R1.r, 4), (R2.r, 4), memory=True))
+@RANKS.broken("long records", grows_in_memory((R1.r, 4), (R2.r, 4)))
 def computes_right_vectors_it_does_not_need(r: Any, windows: int) -> Any:
     """The singular value decomposition is the full one, whose right vectors are N x N."""
     np.linalg.svd(hankel(r, windows))
     return reference.window_ranks(r, windows)
 
 
-@SPACE.broken("long records", grows((R1.r, R1.A, R1.C, 1, 4), (R2.r, R2.A, R2.C, 1, 4), memory=True))
+@SPACE.broken("long records", grows_in_memory((R1.r, R1.A, R1.C, 1, 4), (R2.r, R2.A, R2.C, 1, 4)))
 def takes_the_full_decomposition(r: Any, A: Any, C: Any, n_v: int, block_rows: int) -> Any:
     """Null vectors of R_s are taken from the left of a full decomposition, whose right vectors are N x N."""
     np.linalg.svd(hankel(r, block_rows))
     return reference.fault_space(r, A, C, n_v, block_rows)
 
 
-@COUNT.broken("long records", grows((R1.r,), (R2.r,), memory=True))
+@COUNT.broken("long records", grows_in_memory((R1.r,), (R2.r,)))
 def compares_every_two_samples(r: Any) -> Any:
     """The products of every two samples are made, N x N."""
     rank = np.linalg.norm(r @ r.T) > 0
     return reference.fault_dimension(r) if rank else 0
 
 
-@IDENTIFY.broken("long records", grows((SHORT.y, SHORT.u, 2, 4), (LONG.y, LONG.u, 2, 4), memory=True))
+@IDENTIFY.broken("long records", grows_in_memory((SHORT.y, SHORT.u, 2, 4), (LONG.y, LONG.u, 2, 4)))
 def builds_the_projection(y: Any, u: Any, order: int, block_rows: int) -> Any:
     """The projection along the inputs is made as a matrix of N x N, as the formula has it."""
     U = hankel(u, block_rows)
@@ -66,7 +66,7 @@ def builds_the_projection(y: Any, u: Any, order: int, block_rows: int) -> Any:
     return reference.identify(y, u, order, block_rows)
 
 
-@SIGNAL.broken("long records", grows((R1.r, R1.A, R1.F, R1.C, R1.G, R1.x0), (R2.r[:1600], R2.A, R2.F, R2.C, R2.G, R2.x0), memory=True))
+@SIGNAL.broken("long records", grows_in_memory((R1.r, R1.A, R1.F, R1.C, R1.G, R1.x0), (R2.r[:1600], R2.A, R2.F, R2.C, R2.G, R2.x0)))
 def builds_the_whole_system_of_equations(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any:
     """All equations for all samples are put into one dense matrix, to see that they fit."""
     N, m = len(r), F.shape[1]
@@ -78,7 +78,7 @@ def builds_the_whole_system_of_equations(r: Any, A: Any, F: Any, C: Any, G: Any,
     return v + 0.0 * np.linalg.norm(np.tensordot(T, v, axes=2))
 
 
-@RESIDUAL.broken("long records: time", grows((SHORT.y, SHORT.u, *MATRICES), (LONG.y, LONG.u, *MATRICES), memory=False))
+@RESIDUAL.broken("long records: time", grows_in_time((SHORT.y, SHORT.u, *MATRICES), (LONGER.y, LONGER.u, *MATRICES)))
 def makes_the_array_within_the_loop(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
     """Rows are gathered in a list, and an array is made of it after each one: a line is indented too far."""
     rows: list[Any] = []

@@ -159,7 +159,9 @@ def draws_from_the_generator_of_all(r: Any, A: Any, C: Any, n_v: int, block_rows
     return reference.fault_space(r, A, C, n_v, block_rows)
 
 
-@RESIDUAL.broken("programs that want to hear of overflows", leaves(np.geterr, lambda: np.seterr(all="warn"), ONE.y, ONE.u, *MATRICES))
+@RESIDUAL.broken(
+    "programs that want to hear of overflows", leaves(np.geterr, lambda: np.seterr(all="warn", under="ignore"), ONE.y, ONE.u, *MATRICES)
+)
 def silences_numpy_for_good(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
     """numpy's warnings of overflow are switched to exceptions, and not back."""
     np.seterr(all="raise", under="ignore")

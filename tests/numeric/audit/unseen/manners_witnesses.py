@@ -10,7 +10,7 @@ keeps_the_answer    an answer does not change when another question is asked
 unshared            the answer is no view of an argument
 asked_often         a witness, asked after so many equal questions
 forgets             no argument is kept alive
-grows               the memory that a call takes beside the length of the record, or the time
+grows_in_memory, grows_in_time   what a call takes beside the length of the record
 ends                a question is refused within a second
 """
 
@@ -189,14 +189,13 @@ def forgets(*arguments: Any) -> Witness:
     return witness
 
 
-def _spent(function: Function, arguments: Sequence[Any], memory: bool) -> float:
-    if not memory:
-        least = np.inf
-        for _ in range(2):
-            begin = time.process_time()
-            function(*arguments)
-            least = min(least, time.process_time() - begin)
-        return least
+def _seconds(function: Function, arguments: Sequence[Any]) -> float:
+    begin = time.process_time()
+    function(*arguments)
+    return time.process_time() - begin
+
+
+def _most_memory(function: Function, arguments: Sequence[Any]) -> float:
     tracemalloc.start()
     try:
         function(*arguments)
@@ -205,21 +204,43 @@ def _spent(function: Function, arguments: Sequence[Any], memory: bool) -> float:
         tracemalloc.stop()
 
 
-def grows(short: Sequence[Any], long: Sequence[Any], *, memory: bool) -> Witness:
-    """The exponent of memory or time between records of unlike lengths, beside midway between linear and quadratic."""
+def _exponent(short: Sequence[Any], long: Sequence[Any], spent_short: float, spent_long: float) -> float:
+    """The exponent of what is spent between records of unlike lengths, beside midway between linear and quadratic."""
+    return float(np.log(spent_long / max(spent_short, 1e-9)) / np.log(len(long[0]) / len(short[0])) / 1.5)
+
+
+def grows_in_memory(short: Sequence[Any], long: Sequence[Any]) -> Witness:
+    """The exponent of memory between records of unlike lengths, beside midway between linear and quadratic."""
 
     def witness(function: Function) -> float:
-        # What a first call imports or remembers for good is nobody's growth.
+        function(*short)  # What a first call imports or remembers for good is nobody's growth.
+        return _exponent(short, long, _most_memory(function, short), _most_memory(function, long))
+
+    return witness
+
+
+def grows_in_time(short: Sequence[Any], long: Sequence[Any]) -> Witness:
+    """The exponent of time between records of unlike lengths, beside midway between linear and quadratic.
+
+    The short record is asked twice before the long one and twice after it, and its least time counts: what else a machine
+    does makes it look slow at times, which would hide a growth.
+    """
+
+    def witness(function: Function) -> float:
         function(*short)
-        ratio = len(long[0]) / len(short[0])
-        most = [_spent(function, one, memory) for one in (short, long)]
-        return float(np.log(most[1] / max(most[0], 1e-9)) / np.log(ratio) / 1.5)
+        before = [_seconds(function, short) for _ in range(2)]
+        spent = _seconds(function, long)
+        return _exponent(short, long, min(*before, *(_seconds(function, short) for _ in range(2))), spent)
 
     return witness
 
 
 def ends(*arguments: Any) -> Witness:
-    """A question without an answer is refused before a second has gone."""
+    """A question without an answer is refused before a second has gone.
+
+    The alarm may come while numpy enters `errstate`, which then never leaves it: singular values would be said not to converge in whatever
+    the process computes later. What held before is therefore put back.
+    """
 
     def alarmed(*_: Any) -> None:
         raise TimeoutError("a second has gone")
@@ -228,7 +249,8 @@ def ends(*arguments: Any) -> Witness:
         before = signal.signal(signal.SIGALRM, alarmed)
         signal.setitimer(signal.ITIMER_REAL, 1.0)
         try:
-            guarded(function)(*copies(arguments))
+            with np.errstate():
+                guarded(function)(*copies(arguments))
         except Refused:
             return 0.0
         except Broken:

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
 import pytest
 
 from faultspace.numeric.audit import reference
 from faultspace.numeric.audit.adapter import FUNCTIONS
 from tests.numeric.audit.unseen.catalogue import ALL, BY_NAME
 from tests.numeric.audit.unseen.form import Function, Unseen
+from tests.numeric.audit.unseen.manners_witnesses import ends
 
 AT_LEAST = 170  # what was asked for, a few to be found equivalent among them
 SLOW = ("count_faults", "identified_fault_space")
@@ -52,3 +54,16 @@ def test_each_says_what_is_wrong_and_where() -> None:
 def test_the_witness_shows_the_mistake_and_no_other(one: Unseen) -> None:
     assert one.witness(getattr(one.adapter, one.function)) > 1, "the mutant is right where it was thought to be wrong"
     assert one.witness(getattr(reference, one.function)) < 1, "the reference is wrong, too: the question is not a legitimate one"
+
+
+def test_a_question_that_an_alarm_ends_leaves_the_handling_of_errors_of_numpy() -> None:
+    """An alarm that comes while numpy enters `errstate` has the process say ever after that singular values do not converge."""
+
+    def endless(_: Any) -> None:
+        np.seterr(invalid="raise")
+        while True:
+            np.linalg.svd(np.eye(2))
+
+    before = np.geterr()
+    assert ends(np.eye(2))(endless) > 1
+    assert np.geterr() == before

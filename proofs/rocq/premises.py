@@ -1,0 +1,297 @@
+r"""What a headline supposes, and whether it is an example: its statement taken apart, as text.
+
+    Parts       the premises of a statement, what it says positively, and whether it says that of something that exists or is given
+    parts       the Parts of a headline
+    words       the words of ours that such texts name
+    together    the statement that all premises of a headline can be met together, for every field or for some
+    Instance    a theorem NAME_instance of the theory: that all premises of the headline NAME hold together of something
+    instances   headline -> its Instance; raises NotProved where one says something else
+    examples    the headlines that suppose nothing in words of ours and say something of what exists or is given, and those of all systems
+    Nearest     which of them say all the words that a headline supposes, or the most
+
+A statement is `binders : P -> ... -> [/\ Q, R & forall x, P' -> Q']`. All of P and P' are premises. Said positively is a conjunct without
+premises in which no `~`, `<>`, `<->`, `\/` stands. Nothing is parsed beyond that: which words of ours stand where is what is compared.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from .build import NotProved
+from .statements import Headline, Statements
+
+BINDER = re.compile(r"(?:let|forall|exists2?|fun)\b")
+CONNECTIVES = ("->", "<->", "/\\", "\\/")
+NOT_PLAIN = re.compile(r"~|<>|<->|\\/|->")
+FIELD = re.compile(r"\(K : \w+\)")
+INSTANCE = re.compile(r"^Theorem (\w+)_instance\b(.*?)\.\nProof\.", re.MULTILINE | re.DOTALL)
+TYPED = re.compile(r"\(([\w']+) : [^()]*(?:\([^()]*\))?\)")
+OF_ANY_SYSTEM = re.compile(r"\(S : system K n m p\)")
+OPENS, CLOSES = "([{", ")]}"
+
+
+@dataclass(frozen=True)
+class Parts:
+    """`premises` and `plainly` are texts of Rocq: what is supposed, and what is said positively. `example`: of what exists or is given."""
+
+    premises: tuple[str, ...]
+    plainly: tuple[str, ...]
+    example: bool
+
+
+def parts(headline: Headline) -> Parts:
+    """Return the parts of its statement."""
+    _, proposition = _cut(headline.statement, " : ")
+    found = list(_taken_apart(proposition))
+
+    def texts(kind: str) -> tuple[str, ...]:
+        return tuple(dict.fromkeys(text for what, text in found if what == kind))
+
+    return Parts(texts("premise"), tuple(text for text in texts("said") if not NOT_PLAIN.search(text)), bool(texts("example")))
+
+
+def together(headline: Headline) -> tuple[str, ...]:
+    """Return the statement, binders and all, that there is what the headline is about and that it meets all its premises, those within the
+    conclusion included: for every field first, then for some field, then for every field with one example for each conjunct that has
+    premises of its own, which may contradict those of another. Nothing where it has no premise.
+
+    A premise that speaks of what the conclusion says to exist is left out, for that is not chosen but proved.
+    """
+    binders, proposition = _cut(headline.statement, " : ")
+    met = _met(proposition)
+    if not met:
+        return ()
+    binders = binders.strip()
+    field = FIELD.match(binders)
+    rest = binders[field.end() :] if field else binders
+    bound, apart = _bound(rest, met), " /\\ ".join(_closed(_bound(rest, chain)) for chain in _chains(proposition))
+    if not field:
+        return (f": {bound}", f": {apart}")
+    joined = f" {bound.removeprefix('exists ')}" if bound.startswith("exists ") else f", {bound}"
+    return (f"{field[0]} : {bound}", f": exists {field[0]}{joined}", f"{field[0]} : {apart}")
+
+
+@dataclass(frozen=True)
+class Instance:
+    """`file` and `line` tell where it stands, `statement` is what it says, binders and all."""
+
+    file: str
+    line: int
+    statement: str
+
+
+def instances(statements: Statements, texts: Mapping[str, str]) -> dict[str, Instance]:
+    """Return them by headline. What each says is `together` of the headline, where a name may have its type besides, which the headline
+    leaves to be inferred. Raises NotProved where one says something else, or is of no headline."""
+    found: dict[str, Instance] = {}
+    for file, text in texts.items():
+        for match in INSTANCE.finditer(text):
+            name, said = match[1], " ".join(match[2].split())
+            wanted = together(statements.headlines[name]) if name in statements.headlines else ()
+            if not any(said == one or _without_types(said, one) == one for one in wanted):
+                raise NotProved(
+                    f"{file}: {name}_instance does not say that the premises of {name} can be met: {' or '.join(wanted) or 'it has none'}"
+                )
+            found[name] = Instance(file, text[: match.start()].count("\n") + 1, said)
+    return found
+
+
+def _without_types(said: str, wanted: str) -> str:
+    return TYPED.sub(lambda one: one[0] if one[0] in wanted else one[1], said)
+
+
+def _met(text: str) -> str:
+    """Return what says that all premises in the text hold of something; "" where it has none."""
+    text = _bare(text.strip())
+    if begun := BINDER.match(text):
+        bound, rest = _cut(text, " in " if begun[0] == "let" else ",")
+        met = "" if begun[0].startswith("exists") else _met(rest)
+        return _within(bound, met) if met else ""
+    premise, rest = _cut(text, "->")
+    conjuncts = _conjuncts(text)
+    parts = [premise.strip(), _met(rest)] if rest else [_met(one) for one in conjuncts] if len(conjuncts) > 1 else []
+    *first, last = [one for one in parts if one] or [""]
+    loose = not BINDER.match(last) and any(last.startswith(("->", "<->", "\\/"), k) for k, _ in _outside(last))
+    return " /\\ ".join([*(_closed(one) for one in first), f"({last})" if loose and first else last])
+
+
+def _chains(text: str) -> list[str]:
+    """Return for each conjunct with premises what says that its premises, and those before it, hold of something."""
+    text = _bare(text.strip())
+    if begun := BINDER.match(text):
+        bound, rest = _cut(text, " in " if begun[0] == "let" else ",")
+        return [] if begun[0].startswith("exists") else [_within(bound, one) for one in _chains(rest)]
+    premise, rest = _cut(text, "->")
+    if rest:
+        return [" /\\ ".join([_closed(premise.strip()), one]) for one in _chains(rest)] or [premise.strip()]
+    conjuncts = _conjuncts(text)
+    return [one for conjunct in conjuncts if len(conjuncts) > 1 for one in _chains(conjunct)]
+
+
+def _within(bound: str, met: str) -> str:
+    """Return that this holds of some "forall x", or of "let x := a" as it is told, where it speaks of that."""
+    if bound.startswith("let"):
+        return f"{bound} in {met}" if _says(met, bound.split()[1]) else met
+    return _bound(bound.removeprefix("forall"), met)
+
+
+def _bound(binders: str, met: str) -> str:
+    """Return that there are these, of which what follows holds; a name that stands nowhere there is left out."""
+    said, kept = met, list[str]()
+    for one in reversed(re.findall(r"\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\)|[^\s()]+", binders)):
+        names, colon, kind = one.removeprefix("(").removesuffix(")").partition(" : ") if one.startswith("(") else (one, "", "")
+        if used := " ".join(name for name in names.split() if _says(said, name)):
+            kept.insert(0, f"({used}{colon}{kind})" if colon else used)
+            said = f"{kept[0]} {said}"
+    return f"exists {' '.join(kept)}, {met}" if kept else met
+
+
+def _says(text: str, name: str) -> bool:
+    return re.search(rf"(?<![\w']){re.escape(name)}(?![\w'])", text) is not None
+
+
+def _closed(text: str) -> str:
+    """Return the text, in brackets where a connective or a binder stands outside of brackets."""
+    open_ = any(_binder(text, k) or text.startswith(CONNECTIVES, k) for k, _ in _outside(text))
+    return f"({text})" if open_ else text
+
+
+@dataclass(frozen=True)
+class Examples:
+    """`given`: headline -> the words that it says positively of an example. `of_all`: headline -> the words that it supposes of any system,
+    and those that it then says positively of it or of something that exists with it."""
+
+    given: Mapping[str, frozenset[str]]
+    of_all: Mapping[str, tuple[frozenset[str], frozenset[str]]]
+
+    def saying(self, wanted: frozenset[str], first: Sequence[str] = ()) -> Nearest:
+        """Return headlines that together say all these words, or the one that lacks the fewest; of several those named `first`."""
+        found = [Nearest((name,), wanted - said) for name, said in self.given.items()]
+        found += [
+            Nearest((name, other), wanted - said - then)
+            for name, said in self.given.items()
+            for other, (supposed, then) in self.of_all.items()
+            if other != name and supposed <= said
+        ]
+        return min(found, key=lambda one: (len(one.lacking), len(one.names), one.names[0] not in first))
+
+
+@dataclass(frozen=True)
+class Nearest:
+    """`names` are an example, and a headline of all systems where one is needed; `lacking` the words that they do not say."""
+
+    names: tuple[str, ...]
+    lacking: frozenset[str]
+
+
+def examples(statements: Statements) -> Examples:
+    """Return the headlines that suppose nothing in words of ours and say something of what exists or is given, and those of all systems."""
+    given: dict[str, frozenset[str]] = {}
+    of_all: dict[str, tuple[frozenset[str], frozenset[str]]] = {}
+    for name, headline in statements.headlines.items():
+        apart = parts(headline)
+        supposed, said = words(statements, headline, apart.premises), words(statements, headline, apart.plainly)
+        if apart.example and not supposed:
+            given[name] = said
+        if OF_ANY_SYSTEM.search(_cut(headline.statement, " : ")[0]):
+            of_all[name] = supposed, said
+    return Examples(given, of_all)
+
+
+def words(statements: Statements, headline: Headline, texts: tuple[str, ...]) -> frozenset[str]:
+    """Return the keys of the words of ours that these texts name, but for the fields of a system; ^T is MathComp's transpose and none."""
+    named = statements.named(" ".join(texts).replace("^T", ""), headline.file)
+    return frozenset(word.key for word in named if word.name != "system")
+
+
+def _taken_apart(text: str) -> Iterator[tuple[str, str]]:
+    """Yield ("premise", text), ("said", text), and ("example", text) where something exists or is given."""
+    text = _bare(text.strip())
+    if begun := BINDER.match(text):
+        bound, rest = _cut(text, " in " if begun[0] == "let" else ",")
+        if begun[0].startswith("exists") or " := System " in bound:
+            yield "example", bound
+        if begun[0] == "exists2":
+            first, rest = _cut(rest, "&")
+            yield from _taken_apart(first)
+        yield from _taken_apart(rest)
+        return
+    premise, rest = _cut(text, "->")
+    if rest:
+        yield "premise", _bare(premise.strip())
+        yield from _taken_apart(rest)
+        return
+    conjuncts = _conjuncts(text)
+    if len(conjuncts) == 1:
+        yield "said", text
+        return
+    for one in conjuncts:
+        yield from _taken_apart(one)
+
+
+def _conjuncts(text: str) -> list[str]:
+    r"""Return the conjuncts of [/\ P, Q & R] or of P /\ Q; the text itself where it is neither."""
+    if text.startswith("[/\\") and _closing(text) == len(text) - 1:
+        return _listed(text[3:-1])
+    found = []
+    while _cut(text, "<->")[1] == _cut(text, "\\/")[1] == "" and (rest := _cut(text, "/\\"))[1]:
+        found.append(rest[0])
+        text = rest[1]
+    return [*found, text]
+
+
+def _listed(text: str) -> list[str]:
+    """Return what commas and & part, but for the comma of a quantifier and the & of exists2."""
+    found, begun, of_binders, of_exists2 = [], 0, 0, 0
+    for k, letter in _outside(text):
+        if binder := _binder(text, k):
+            of_binders += binder != "let"
+            of_exists2 += binder == "exists2"
+        elif letter in ",&" and (pending := of_binders if letter == "," else of_exists2):
+            of_binders, of_exists2 = (pending - 1, of_exists2) if letter == "," else (of_binders, pending - 1)
+        elif letter in ",&":
+            found.append(text[begun:k])
+            begun = k + 1
+    return [*found, text[begun:]]
+
+
+def _cut(text: str, mark: str) -> tuple[str, str]:
+    """Return what stands before the mark and what behind it, outside of brackets; all and "" where it does not stand there.
+
+    A connective that follows a quantifier is inside of what that says.
+    """
+    for k, _ in _outside(text):
+        if text.startswith(mark, k) and not (mark == "->" and text[k - 1 : k] == "<"):
+            return text[:k], text[k + len(mark) :]
+        if mark in CONNECTIVES and _binder(text, k):
+            break
+    return text, ""
+
+
+def _outside(text: str) -> Iterator[tuple[int, str]]:
+    """Yield the places outside of brackets with their letters."""
+    depth = 0
+    for k, letter in enumerate(text):
+        depth += (letter in OPENS) - (letter in CLOSES)
+        if depth == 0:
+            yield k, letter
+
+
+def _binder(text: str, k: int) -> str:
+    """Return let, forall, exists or exists2 where one begins there; else ""."""
+    found = None if k and (text[k - 1].isalnum() or text[k - 1] in "_'") else BINDER.match(text, k)
+    return found[0] if found else ""
+
+
+def _bare(text: str) -> str:
+    """Return the text without brackets around all of it."""
+    while text.startswith("(") and _closing(text) == len(text) - 1:
+        text = text[1:-1].strip()
+    return text
+
+
+def _closing(text: str) -> int:
+    """Return where the bracket closes that the text begins with."""
+    return next((k for k, letter in _outside(text) if letter in CLOSES), -1)

@@ -1,0 +1,87 @@
+"""What makes a release refuses a step that ends or prints otherwise than it has to, and its archive depends on what it holds alone."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+import faultspace
+
+from .import_graph import ROOT
+
+PROGRAMS = Path(sys.executable).parent
+PYTHON = Path(sys.executable).name
+
+
+@pytest.fixture(scope="module")
+def release() -> ModuleType:
+    """Return .ci/release, which is a script without an ending."""
+    loader = SourceFileLoader("release", str(ROOT / ".ci" / "release"))
+    spec = spec_from_loader("release", loader)
+    assert spec is not None
+    module = module_from_spec(spec)
+    sys.modules["release"] = module  # records ask for their module
+    loader.exec_module(module)
+    return module
+
+
+def test_a_step_that_does_as_it_has_to_is_measured(release: ModuleType, tmp_path: Path) -> None:
+    (tmp_path / "a-1.txt").write_text("", "utf-8")
+    held = "x = bytearray(80 << 20); import sys, time; time.sleep(0.6); print('found', *sys.argv[1:])"
+    done = release.did(release.Step("one", f'{PYTHON} -c "{held}" *-*.txt', "found .*"), PROGRAMS, tmp_path)
+    assert done.said == "found a-1.txt"
+    assert done.clock > 0.5 and done.memory > 80 << 20
+
+
+@pytest.mark.parametrize(("program", "says", "code"), [("print(2)", "1", 0), ("print(1)", "1", 3), ("raise SystemExit(3)", "1", 3)])
+def test_a_step_that_does_otherwise_is_refused(release: ModuleType, tmp_path: Path, program: str, says: str, code: int) -> None:
+    with pytest.raises(release.Failed, match="no line like"):
+        release.did(release.Step("one", f'{PYTHON} -c "{program}"', says, code), PROGRAMS, tmp_path)
+
+
+def test_an_archive_is_made_of_names_and_bytes_alone(release: ModuleType, tmp_path: Path) -> None:
+    one, other = tmp_path / "one", tmp_path / "other"
+    for folder, when in ((one, 1e9), (other, 1.5e9)):
+        folder.mkdir()
+        (folder / "a").write_bytes(b"text")
+        os.utime(folder / "a", (when, when))
+        release.archived({"kept": [folder / "a"]}, folder / "kept.zip")
+    assert release.sums(one) == release.sums(other)
+    assert re.fullmatch(r"[0-9a-f]{64}  a\n[0-9a-f]{64}  kept\.zip\n", release.sums(one))
+    (other / "a").write_bytes(b"Text")
+    release.archived({"kept": [other / "a"]}, other / "kept.zip")
+    assert release.sums(one) != release.sums(other)
+
+
+def test_the_page_has_the_steps(release: ModuleType) -> None:
+    told = re.findall(r"^\| [^|]+ \| `([^`]+)` \|", release.PAGE.read_text("utf-8"), re.MULTILINE)
+    assert told == [step.command for step in release.STEPS], "make it again: .ci/release"
+
+
+THEORY = ROOT / "proofs" / "theory"
+
+
+def test_the_package_of_the_theory_has_the_version_and_licence_of_ours() -> None:
+    told = dict(re.findall(r'^(\S+): "([^"]*)"$', (THEORY / "coq-faultspace.opam").read_text("utf-8"), re.MULTILINE))
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    assert (told["version"], told["license"]) == (faultspace.__version__, project["license"])
+
+
+@pytest.mark.skipif(shutil.which("coq_makefile") is None, reason="coq_makefile is not installed (apt install coq)")
+def test_the_package_of_the_theory_builds_every_file(tmp_path: Path) -> None:
+    shutil.copytree(THEORY, tmp_path / "theory", ignore=shutil.ignore_patterns("*.vo*", "*.glob", ".*"))
+    lines = re.findall(r'^  \["sh" "-c" "(.+)"\]$', (THEORY / "coq-faultspace.opam").read_text("utf-8"), re.MULTILINE)
+    assert len(lines) == 1
+    subprocess.run(["sh", "-c", lines[0]], cwd=tmp_path / "theory", check=True, capture_output=True, timeout=60)
+    told = re.findall(r"\./([\w/]+\.v)\b", (tmp_path / "theory" / "Makefile.conf").read_text("utf-8"))
+    assert {*told} == {path.relative_to(THEORY).as_posix() for path in THEORY.rglob("*.v")}
