@@ -159,12 +159,12 @@ def _equality(s: Json, w: Json) -> Terms:
     )
     if "window" not in s:
         lower = (_lower("lower", first, kernel, w, prime), _lower("lower'", second, kernel, w, prime))
-        statement = f"(forall s r, word {a} s r <-> word {b} s r) /\\ (forall r, behavior {a} r <-> behavior {b} r)"
+        statement = f"(forall s, same_words {a} {b} s) /\\ same_behavior {a} {b}"
         check = call("check_equality", *shape, "l first second rows lower lower'")
         return Terms((*definitions, *lower), check, statement, "equality_sound")
     window = window_of(s["window"])
     words = (_words("ws", first, window, prime), _words("ws'", second, window, prime))
-    statement = f"forall r, word {a} {natural(window)} r <-> word {b} {natural(window)} r"
+    statement = f"same_words {a} {b} {natural(window)}"
     check = call("check_window_equality", *shape, window, "l first second rows ws ws'")
     return Terms((*definitions, *words), check, statement, "window_equality_sound")
 

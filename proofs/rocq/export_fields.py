@@ -100,10 +100,10 @@ def _equality(s: Json, w: Json) -> Terms:
     if "window" in s:
         window = window_of(s["window"])
         name, at, sound = "are_equal_on", [window], "are_equal_on_sound"
-        statement = f"forall r, word {a} {natural(window)} r <-> word {b} {natural(window)} r"
+        statement = f"same_words {a} {b} {natural(window)}"
     else:
         name, at, sound = "are_equal", [], "are_equal_sound"
-        statement = f"(forall s r, word {a} s r <-> word {b} s r) /\\ (forall r, behavior {a} r <-> behavior {b} r)"
+        statement = f"(forall s, same_words {a} {b} s) /\\ same_behavior {a} {b}"
         _hinted(second, w)
     words = [_words(ws, one, one.n + 1 if window is None else window) for ws, one in (("ws", first), ("ws'", second))]
     definitions = [named("first", first), named("second", second), *_rows(first, kernel, w), *words]

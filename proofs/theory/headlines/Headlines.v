@@ -164,28 +164,28 @@ Proof. exact: Undetectable.next_fault_limit. Qed.
 Theorem theorem_1_n_samples (K : fieldType) (c c' : K) n : c != 0 -> c' != 0 -> c != c' ->
   exists (S : system K n.+1 1 2) F, let S' := with_faults S F (sysG S) in
   [/\ observable S /\ observable S', fault_controllable S /\ fault_controllable S', inverts_at_once S /\ inverts_at_once S',
-      forall r, word S n.+1 r <-> word S' n.+1 r & exists r, word S n.+2 r /\ ~ word S' n.+2 r].
+      same_words S S' n.+1 & exists r, word S n.+2 r /\ ~ word S' n.+2 r].
 Proof. exact: SmallSystems.equal_on_n_samples_only. Qed.
 
 (** n-plus-1-samples *)
 Theorem theorem_1 (K : fieldType) n m n' m' p (S : system K n m p) (S' : system K n' m' p) :
-  (forall r, word S (maxn n n').+1 r <-> word S' (maxn n n').+1 r) <-> (forall r, behavior S r <-> behavior S' r).
+  same_words S S' (maxn n n').+1 <-> same_behavior S S'.
 Proof. exact: SharpWindows.theorem_1. Qed.
 
 (** lag-plus-1 *)
 Theorem theorem_1_lag (K : fieldType) n m n' m' p (S : system K n m p) (S' : system K n' m' p) N : (lag S <= N)%N -> (lag S' <= N)%N ->
-  (forall r, word S N.+1 r <-> word S' N.+1 r) <-> (forall r, behavior S r <-> behavior S' r).
+  same_words S S' N.+1 <-> same_behavior S S'.
 Proof. exact: SharpWindows.theorem_1_sharp. Qed.
 
 (** either-lag *)
 Theorem theorem_1_either_lag (K : fieldType) n m n' m' p (S : system K n m p) (S' : system K n' m' p) N :
   \rank (transfer S) = \rank (transfer S') -> (lag S <= N)%N ->
-  (forall r, word S N.+1 r <-> word S' N.+1 r) <-> (forall r, behavior S r <-> behavior S' r).
+  same_words S S' N.+1 <-> same_behavior S S'.
 Proof. exact: Readings.equal_on_lag_plus_1_of_either. Qed.
 
 (** sharp, for every n >= 1 and every field *)
 Theorem theorem_1_sharp (K : fieldType) n : (0 < n)%N -> exists (S : system K n 1 2) F, let S' := with_faults S F (sysG S) in
-  [/\ left_invertible S, left_invertible S', forall r, word S n r <-> word S' n r & exists r, word S' n.+1 r /\ ~ word S n.+1 r].
+  [/\ left_invertible S, left_invertible S', same_words S S' n & exists r, word S' n.+1 r /\ ~ word S n.+1 r].
 Proof. exact: Theorem1Sharp.n_samples_are_not_enough. Qed.
 
 (** parametric, over any field *)

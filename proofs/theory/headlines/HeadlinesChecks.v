@@ -65,12 +65,12 @@ Proof. exact: CheckBehaviors.inclusion_sound. Qed.
 
 Theorem check_equality (n m n' m' p : nat) L L' l rows lower lower' : check_equality n m n' m' p l L L' rows lower lower' ->
   let S := meant n m p L in let S' := meant n' m' p L' in
-  (forall s r, word S s r <-> word S' s r) /\ (forall r, behavior S r <-> behavior S' r).
+  (forall s, same_words S S' s) /\ same_behavior S S'.
 Proof. exact: CheckBehaviors.equality_sound. Qed.
 
 Theorem check_window_equality (n m n' m' p : nat) L L' s l rows ws ws' :
   check_window_equality n m n' m' p s l L L' rows ws ws' ->
-  forall r, word (meant n m p L) s r <-> word (meant n' m' p L') s r.
+  same_words (meant n m p L) (meant n' m' p L') s.
 Proof. exact: CheckBehaviors.window_equality_sound. Qed.
 
 Theorem check_difference (n m n' m' p : nat) L L' s x vs c : check_difference n m n' m' p s L L' x vs c ->

@@ -59,11 +59,11 @@ Proof. move=> meaning; exact: (FieldBehaviors.is_included_sound meaning). Qed.
 
 Theorem field_equality (R : arithmetic) (K : fieldType) (value : numeral R -> K) n m n' m' p L L' rows Q ws ws' : means value ->
   are_equal n m n' m' p L L' rows Q ws ws' -> let S := system_of value n m p L in let S' := system_of value n' m' p L' in
-  (forall s r, word S s r <-> word S' s r) /\ (forall r, behavior S r <-> behavior S' r).
+  (forall s, same_words S S' s) /\ same_behavior S S'.
 Proof. move=> meaning; exact: (FieldBehaviors.are_equal_sound meaning). Qed.
 
 Theorem field_window_equality (R : arithmetic) (K : fieldType) (value : numeral R -> K) n m n' m' p s L L' rows Q ws ws' : means value ->
-  are_equal_on n m n' m' p s L L' rows Q ws ws' -> forall r, word (system_of value n m p L) s r <-> word (system_of value n' m' p L') s r.
+  are_equal_on n m n' m' p s L L' rows Q ws ws' -> same_words (system_of value n m p L) (system_of value n' m' p L') s.
 Proof. move=> meaning; exact: (FieldBehaviors.are_equal_on_sound meaning). Qed.
 
 Theorem field_difference (R : arithmetic) (K : fieldType) (value : numeral R -> K) n m n' m' p s L L' x vs c : means value ->

@@ -16,7 +16,7 @@ Local Open Scope ring_scope.
 
 (** part-i; for every window s *)
 Theorem theorem_3_part_i (K : fieldType) n m m' p (S : system K n m p) (F : 'M_(m', n)) (G : 'M_(m', p)) s k (Z : 'M_(k, n + p)) :
-  (forall r, behavior (with_faults S F G) r <-> behavior S r) ->
+  same_behavior (with_faults S F G) S ->
   (forall i, solves S s (row i F) (row i G)) /\ (spans_solutions S s Z -> exists P, row_mx F G = P *m Z).
 Proof. exact: Theorem3.theorem_3_part_i. Qed.
 
@@ -27,11 +27,11 @@ Proof. exact: Theorem3.theorem_3_part_i. Qed.
 Theorem theorem_3_almost_every (K : fieldType) n m p (S : system K n m p) s (Z : 'M_(zeta S + \rank (transfer S), n + p)) :
   (lag S < s)%N -> spans_solutions S s Z -> row_free Z -> exists a b : 'M_(zeta S, zeta S + \rank (transfer S)),
   let D P := \det (col_mx ('X *: map_mx polyC b - map_mx polyC a) (map_mx polyC P)) in
-  (forall P, (forall r, behavior (faults_of S (P *m Z)) r <-> behavior S r) <-> D P != 0) /\ exists P, D P != 0.
+  (forall P, same_behavior (faults_of S (P *m Z)) S <-> D P != 0) /\ exists P, D P != 0.
 Proof. exact: GoodPairs.almost_every_pair. Qed.
 Theorem theorem_3_on_lines (K : fieldType) n m p (S : system K n m p) s k (Z : 'M_(k, n + p)) (P P1 : 'M_(m, k)) (ts : seq K) :
-  (n < s)%N -> spans_solutions S s Z -> left_invertible S -> (forall r, behavior (faults_of S (P *m Z)) r <-> behavior S r) -> uniq ts ->
-  (forall t, t \in ts -> ~ (forall r, behavior (faults_of S ((P + t *: P1) *m Z)) r <-> behavior S r)) -> (size ts <= m)%N.
+  (n < s)%N -> spans_solutions S s Z -> left_invertible S -> same_behavior (faults_of S (P *m Z)) S -> uniq ts ->
+  (forall t, t \in ts -> ~ same_behavior (faults_of S ((P + t *: P1) *m Z)) S) -> (size ts <= m)%N.
 Proof. exact: GenericPairs.theorem_3_part_ii. Qed.
 
 (** every-p, refuted on every window by x(k+1) = v1(k), r = (x, v2, 0), which has normal rank 2 and one zero; Z a basis, P of full rank *)
@@ -41,19 +41,19 @@ Theorem theorem_3_every_p (K : fieldType) :
   let P : 'M_(1 + 1, 1 + (1 + 1)) := block_mx 1%:M 0 0 (row_mx 1%:M 0) in
   [/\ observable S /\ left_invertible S, \rank (transfer S) = 2%N /\ zeta S = 1%N,
       forall s, (0 < s)%N -> spans_solutions S s Z, row_free Z /\ row_free P
-    & ~ (forall r, behavior (faults_of S (P *m Z)) r <-> behavior S r)].
+    & ~ same_behavior (faults_of S (P *m Z)) S].
 Proof. exact: WidePairs.every_p_wide. Qed.
 
 (** criterion-window-n, refuted by problem_11_window_n. criterion-left-invertible: *)
 Theorem theorem_3_left_invertible (K : fieldType) n m p (S : system K n m p) s k (Z : 'M_(k, n + p)) (P : 'M_(m, k)) :
   (lag S < s)%N -> spans_solutions S s Z -> left_invertible S ->
-  (forall r, behavior (faults_of S (P *m Z)) r <-> behavior S r) <-> \rank (transfer (faults_of S (P *m Z))) = m.
+  same_behavior (faults_of S (P *m Z)) S <-> \rank (transfer (faults_of S (P *m Z))) = m.
 Proof. exact: Readings.criterion_left_invertible. Qed.
 
 (** criterion, for P of any number m' of columns, rows here *)
 Theorem theorem_3_criterion (K : fieldType) n m m' p (S : system K n m p) s k (Z : 'M_(k, n + p)) (P : 'M_(m', k)) :
   (lag S < s)%N -> spans_solutions S s Z ->
-  (forall r, behavior (faults_of S (P *m Z)) r <-> behavior S r) <-> \rank (transfer (faults_of S (P *m Z))) = \rank (transfer S).
+  same_behavior (faults_of S (P *m Z)) S <-> \rank (transfer (faults_of S (P *m Z))) = \rank (transfer S).
 Proof. move=> long span; exact: (Theorem3.theorem_3_normal_rank_sharp long span). Qed.
 
 (** Without a matrix Z: with the same (A, C) an included behaviour with as many faults is equal once it, the smaller one, is left-
@@ -61,7 +61,7 @@ Proof. move=> long span; exact: (Theorem3.theorem_3_normal_rank_sharp long span)
 Theorem theorem_3 (K : fieldType) n m m' p (S : system K n m p) (S' : system K n m' p) N :
   sysA S' = sysA S -> sysC S' = sysC S -> (lag S <= N)%N -> (m <= m')%N -> left_invertible S' ->
   (forall r, word S' N.+1 r -> word S N.+1 r) ->
-  (forall s r, word S s r <-> word S' s r) /\ (forall r, behavior S r <-> behavior S' r).
+  (forall s, same_words S S' s) /\ same_behavior S S'.
 Proof. by move=> sameA sameC; apply: (Theorem3.theorem_3_sharp sameA sameC). Qed.
 Theorem theorem_3_needs_same_A (K : fieldType) : exists S S' : system K (1 + 1) 0 1,
   [/\ left_invertible S, left_invertible S', sysC S = sysC S',
@@ -79,13 +79,13 @@ Qed.
 (** fault-matrices, refuted by x1(k+1) = x2(k), x2(k+1) = v(k), r = x1: the rows of F' are not in the row space of F *)
 Theorem zero_feedthrough_fault_matrices (K : fieldType) : exists (S : system K (1 + 1) 1 1) (F' : 'M_(1, 1 + 1)),
   [/\ observable S, fault_controllable S, left_invertible S, sysG S = 0 &
-      (forall r, behavior (with_faults S F' 0) r <-> behavior S r) /\ ~ (F' <= sysF S)%MS].
+      same_behavior (with_faults S F' 0) S /\ ~ (F' <= sysF S)%MS].
 Proof. exact: FaultMatrices.fault_matrices_equal. Qed.
 
 (** exactly-when: all F' of the same behaviour are in the row space of F just when all solutions (f, 0) are; and when these are. zeta is
     the number of zeros by window_ranks_zeros *)
 Theorem zero_feedthrough_matrices (K : fieldType) n m p (S : system K n m p) s : (n < s)%N -> sysG S = 0 ->
-  (forall m' (F' : 'M_(m', n)), (forall r, behavior (with_faults S F' 0) r <-> behavior S r) -> (F' <= sysF S)%MS) <->
+  (forall m' (F' : 'M_(m', n)), same_behavior (with_faults S F' 0) S -> (F' <= sysF S)%MS) <->
   (forall f, solves S s f 0 -> (f <= sysF S)%MS).
 Proof. exact: FaultMatrices.zero_feedthrough_any. Qed.
 Theorem zero_feedthrough (K : fieldType) n m p (S : system K n m p) s g :
@@ -97,7 +97,7 @@ Proof. exact: Readings.zero_feedthrough_by_zeros. Qed.
 (** Then F is known up to a basis. *)
 Theorem zero_feedthrough_recovery (K : fieldType) n m p (S : system K n m p) (F' : 'M_(m, n)) :
   sysG S = 0 -> left_invertible S -> \rank (sysF S *m sysC S) = m -> (forall x, holds_zero S n x -> x = 0) ->
-  (forall r, behavior (with_faults S F' 0) r <-> behavior S r) <-> (F' :=: sysF S)%MS.
+  same_behavior (with_faults S F' 0) S <-> (F' :=: sysF S)%MS.
 Proof. move=> G0 inv full none; exact: (ZeroFeedthroughUnique.faults_known_up_to_basis G0 inv full none). Qed.
 
 (** ** trajectory-recovered *)
@@ -174,12 +174,12 @@ Proof. exact: Readings.growth_is_normal_rank_from_lag. Qed.
     lag then no smaller; that the lag cannot always be kept is sharp_equality_lag. With one state more it can. *)
 Theorem sharp_equality (K : fieldType) n m p (S : system K n m p) : (0 < m)%N -> (0 < lag S)%N ->
   exists (F : 'M_(m, n)) G, let S' := with_faults S F G in
-  [/\ left_invertible S -> left_invertible S' /\ (lag S <= lag S')%N, forall r, word S (lag S) r <-> word S' (lag S) r
+  [/\ left_invertible S -> left_invertible S' /\ (lag S <= lag S')%N, same_words S S' (lag S)
     & exists r, word S' (lag S).+1 r /\ ~ word S (lag S).+1 r].
 Proof. exact: SharpPartner.partner_with_as_many_faults_same_A_C. Qed.
 Theorem sharp_equality_left_invertible (K : fieldType) n m p (S : system K n m p) : (0 < lag S)%N -> exists S' : system K (n + 1) m p,
   [/\ left_invertible S -> left_invertible S', (lag S' <= lag S)%N, gap S' (n + 1) = gap S n,
-      forall r, word S (lag S) r <-> word S' (lag S) r & exists r, word S' (lag S).+1 r /\ ~ word S (lag S).+1 r].
+      same_words S S' (lag S) & exists r, word S' (lag S).+1 r /\ ~ word S (lag S).+1 r].
 Proof. exact: Readings.partner_with_as_many_faults. Qed.
 
 (** ** one-determinant *)
@@ -203,13 +203,13 @@ Proof. exact: ExceptionalPolynomial.coordinates_exist. Qed.
 
 (** number *)
 Theorem zeros_of_pairs (K : fieldType) n m m' p (S : system K n m p) (S' : system K n m' p) g d :
-  (forall r, behavior S r <-> behavior S' r) -> left_invertible S' -> gcd_of_minors (pencil S') g -> infinite_zeros S' d ->
+  same_behavior S S' -> left_invertible S' -> gcd_of_minors (pencil S') g -> infinite_zeros S' d ->
   ((size g).-1 + d)%N = zeta S.
 Proof. exact: Readings.zeros_of_equivalent_pairs. Qed.
 
 (** split, refuted by r(k) = x(k) + v(k), x(k+1) = 0 *)
 Theorem zeros_of_pairs_split (K : fieldType) : let S : system K 1 1 1 := System 0 0 1%:M 1%:M in exists F G F' G',
-  [/\ forall w, behavior (with_faults S F G) w <-> behavior S w, forall w, behavior (with_faults S F' G') w <-> behavior S w,
+  [/\ same_behavior (with_faults S F G) S, same_behavior (with_faults S F' G') S,
       gcd_of_minors (pencil (with_faults S F G : system _ 1 1 1)) 1
     & gcd_of_minors (pencil (with_faults S F' G' : system _ 1 1 1)) 'X].
 Proof. exact: PairZeros.different_numbers. Qed.
@@ -219,19 +219,19 @@ Proof. exact: PairZeros.different_numbers. Qed.
 (** one-fault *)
 Theorem bad_set_one_fault (K : fieldType) n m p (S : system K n m p) s k (Z : 'M_(k, n + p)) (P : 'rV_k) :
   (lag S < s)%N -> spans_solutions S s Z -> row_free Z -> row_free (O S n) -> \rank (transfer S) = 1%N ->
-  (forall r, behavior (faults_of S (P *m Z)) r <-> behavior S r) <-> P != 0.
+  same_behavior (faults_of S (P *m Z)) S <-> P != 0.
 Proof. exact: Readings.one_fault. Qed.
 
 (** no-zeros, no condition but zeta = 0: P is square, and bad iff singular *)
 Theorem bad_set_no_zeros (K : fieldType) n m p (S : system K n m p) s k (Z : 'M_(k, n + p)) (P : 'M_k) :
   (lag S < s)%N -> spans_solutions S s Z -> row_free Z -> zeta S = 0%N ->
-  k = \rank (transfer S) /\ ((forall r, behavior (faults_of S (P *m Z)) r <-> behavior S r) <-> \det P != 0).
+  k = \rank (transfer S) /\ (same_behavior (faults_of S (P *m Z)) S <-> \det P != 0).
 Proof. exact: Readings.no_zeros. Qed.
 
 (** full-rank: bad P of full rank exist just then *)
 Theorem bad_set_full_rank (K : fieldType) n m p (S : system K n m p) s k (Z : 'M_(k, n + p)) : let r := \rank (transfer S) in
   (n < s)%N -> spans_solutions S s Z -> row_free Z ->
-  (exists P : 'M_(r, k), row_free P /\ ~ (forall w, behavior (faults_of S (P *m Z)) w <-> behavior S w)) <->
+  (exists P : 'M_(r, k), row_free P /\ ~ same_behavior (faults_of S (P *m Z)) S) <->
   ((0 < r)%N /\ ~~ row_free (O S n)) \/ ((1 < r)%N /\ (0 < zeta S)%N).
 Proof. exact: GoodPairs.bad_pairs_of_full_rank_general. Qed.
 
@@ -249,7 +249,7 @@ Qed.
 (** recoverable, of every system *)
 Theorem recoverable_pair (K : fieldType) n m p (S : system K n m p) : let r := \rank (transfer S) in
   exists (F : 'M_(r, n)) (G : 'M_(r, p)), let S' := with_faults S F G in
-  (forall w, behavior S' w <-> behavior S w) /\
+  same_behavior S' S /\
   (forall x y v w, (forall k, output S' x v k = output S' y w k) -> forall k, v k = w k).
 Proof. exact: ObservablePart.recoverable_pair_of_every_system. Qed.
 
@@ -260,7 +260,7 @@ Theorem canonical_form_same_a_c (K : fieldType) n m m' p (S : system K n m p) (S
     (R : 'M_(k, n + p)) (R' : 'M_(k', n + p)) :
   sysA S' = sysA S -> sysC S' = sysC S -> (n < s)%N ->
   spans_solutions S s R -> spans_solutions S' s R' -> reduced_echelon R -> reduced_echelon R' ->
-  (exists e : k = k', castmx (e, erefl) R = R') <-> (forall r, behavior S r <-> behavior S' r).
+  (exists e : k = k', castmx (e, erefl) R = R') <-> same_behavior S S'.
 Proof. move=> sameA sameC; exact: (EchelonForm.canonical_echelon_form sameA sameC). Qed.
 Theorem canonical_form_exists (K : fieldType) n m p (S : system K n m p) s :
   exists k (R : 'M_(k, n + p)), reduced_echelon R /\ spans_solutions S s R.
@@ -268,16 +268,16 @@ Proof. exact: EchelonExists.solutions_echelon_exists. Qed.
 
 (** any-a-c, refuted by another basis of the state: r(k) = (v(k-1), v(k)) with the state v(k-1), or c v(k-1) *)
 Theorem canonical_form_any_a_c (K : fieldType) (c : K) s : c != 0 -> c != 1 -> (1 < s)%N -> exists S S' : system K 1 1 (1 + 1),
-  (forall r, behavior S r <-> behavior S' r) /\ exists f g, solves S s f g /\ ~ solves S' s f g.
+  same_behavior S S' /\ exists f g, solves S s f g /\ ~ solves S' s f g.
 Proof. exact: SmallSystems.equal_behaviors_other_solutions. Qed.
 
 (** feedback, refuted: for every system and every L, and so that no change of basis undoes it *)
-Theorem canonical_form_feedback (K : fieldType) n m p (S : system K n m p) L r :
-  behavior (System (sysA S + L *m sysF S) (sysF S) (sysC S + L *m sysG S) (sysG S)) r <-> behavior S r.
+Theorem canonical_form_feedback (K : fieldType) n m p (S : system K n m p) L :
+  same_behavior (System (sysA S + L *m sysF S) (sysF S) (sysC S + L *m sysG S) (sysG S)) S.
 Proof. exact: SmallSystems.feedback_behavior. Qed.
 Theorem canonical_form_feedback_no_basis (K : fieldType) : exists S S' : system K 1 1 1,
   [/\ observable S /\ observable S', fault_controllable S /\ fault_controllable S', left_invertible S /\ left_invertible S',
-      forall r, behavior S r <-> behavior S' r & ~ exists B, B \in unitmx /\ sysA S' = invmx B *m sysA S *m B].
+      same_behavior S S' & ~ exists B, B \in unitmx /\ sysA S' = invmx B *m sysA S *m B].
 Proof. exact: SmallSystems.behavior_does_not_fix_A. Qed.
 
 (** ** Left-invertibility in all its forms, and what else the claims rest on *)

@@ -23,14 +23,14 @@ Proof. exact: KernelRepresentation.minimal_kernel_representation. Qed.
 
 (** The same behaviour and as many states: in other coordinates x T of the state, S' has its columns in Z, on every window. *)
 Theorem columns_after_change_of_state (K : fieldType) n m m' p (S : system K n m p) (S' : system K n m' p) :
-  (forall r, behavior S r <-> behavior S' r) -> exists T, [/\ T \in unitmx,
-    forall r, behavior (System (invmx T *m sysA S' *m T) (sysF S' *m T) (invmx T *m sysC S') (sysG S')) r <-> behavior S r
+  same_behavior S S' -> exists T, [/\ T \in unitmx,
+    same_behavior (System (invmx T *m sysA S' *m T) (sysF S' *m T) (invmx T *m sysC S') (sysG S')) S
   & forall s i, solves S s (row i (sysF S' *m T)) (row i (sysG S'))].
 Proof. exact: ChangeOfState.columns_after_change_of_state. Qed.
 
 (** Another number of states: a linear map of the states does it. *)
 Theorem columns_after_map_of_state (K : fieldType) n m n' m' p (S : system K n m p) (S' : system K n' m' p) :
-  (forall r, behavior S r <-> behavior S' r) -> exists T : 'M_(n', n), forall s i, solves S s (row i (sysF S' *m T)) (row i (sysG S')).
+  same_behavior S S' -> exists T : 'M_(n', n), forall s i, solves S s (row i (sysF S' *m T)) (row i (sysG S')).
 Proof. exact: ChangeOfState.columns_after_map_of_state. Qed.
 
 (** ** Zero states *)
@@ -115,7 +115,7 @@ Proof. exact: DelaySharp.delay_bounds_attained. Qed.
     rank m and the finite zeros, with multiplicities, are the unobservable modes. *)
 Theorem zero_feedthrough_signal (K : fieldType) n m p (S : system K n m p) g :
   sysG S = 0 -> left_invertible S -> gcd_of_minors (pencil S) g ->
-  (forall F' : 'M_(m, n), let S' := with_faults S F' (0 : 'M_(m, p)) in (forall r, behavior S' r <-> behavior S r) ->
+  (forall F' : 'M_(m, n), let S' := with_faults S F' (0 : 'M_(m, p)) in same_behavior S' S ->
     exists2 Q, Q \in unitmx & forall x v y w, (forall k, output S x v k = output S' y w k) -> forall k, v k = w k *m Q) <->
   \rank (sysF S *m sysC S) = m /\ (size g).-1 = (n - \rank (O S n))%N.
 Proof. move=> G0 inv; exact: (ZeroFeedthroughSignal.zero_feedthrough_signal G0 inv). Qed.
@@ -127,7 +127,7 @@ Proof. move=> G0 inv; exact: (ZeroFeedthroughSignal.zero_feedthrough_signal G0 i
 Theorem sharp_equality_lag (K : fieldType) : let S : system K (1 + 1 + 1) 1 (1 + 1) :=
     System (block_mx (block_mx 0 0 1%:M 0) 0 0 0) (row_mx (row_mx 0 1%:M) 0) (block_mx (col_mx 1%:M 0) 0 0 1%:M) 0 in
   [/\ left_invertible S, lag S = 1%N & forall F G, let S' := with_faults S F G : system K (1 + 1 + 1) 1 (1 + 1) in
-    left_invertible S' -> (lag S' <= lag S)%N -> forall r, behavior S' r <-> behavior S r].
+    left_invertible S' -> (lag S' <= lag S)%N -> same_behavior S' S].
 Proof. exact: SharpPartner.no_partner_keeps_the_lag. Qed.
 
 (** ** zero-assignment *)
@@ -135,13 +135,13 @@ Proof. exact: SharpPartner.no_partner_keeps_the_lag. Qed.
 (** every-polynomial: nonzero, as the zero polynomial of a pair of r faults is; (A, C) observable *)
 Theorem zero_assignment_observable (K : fieldType) n m p (S : system K n m p) (g : {poly K}) : let r := \rank (transfer S) in
   observable S -> (0 < r)%N -> g != 0 ->
-  (exists (F : 'M_(r, n)) (G : 'M_(r, p)), (forall w, behavior (with_faults S F G) w <-> behavior S w) /\
+  (exists (F : 'M_(r, n)) (G : 'M_(r, p)), same_behavior (with_faults S F G) S /\
     gcd_of_minors (pencil (with_faults S F G)) g) <-> (size g <= (zeta S).+1)%N.
 Proof. exact: ZeroAssignmentPairs.zero_polynomials_of_pairs_observable. Qed.
 
 (** unobservable: the multiples of the characteristic polynomial of the unobservable part, and no others *)
 Theorem zero_assignment_unobservable (K : fieldType) n m p (S : system K n m p) d (N : 'M_(d, n)) M (g : {poly K}) :
   unobservable_dynamics S N M -> let r := \rank (transfer S) in (0 < r)%N -> g != 0 ->
-  (exists (F : 'M_(r, n)) (G : 'M_(r, p)), (forall w, behavior (with_faults S F G) w <-> behavior S w) /\
+  (exists (F : 'M_(r, n)) (G : 'M_(r, p)), same_behavior (with_faults S F G) S /\
     gcd_of_minors (pencil (with_faults S F G)) g) <-> char_poly M %| g /\ (size g <= (zeta S).+1)%N.
 Proof. move=> dynamics; exact: (ZeroAssignmentPairs.zero_polynomials_of_pairs dynamics). Qed.

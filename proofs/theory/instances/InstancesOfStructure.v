@@ -67,7 +67,7 @@ Qed.
 
 Theorem theorem_3_part_i_instance (K : fieldType) : exists n m m' p (S : system K n m p) (F : 'M_(m', n)) (G : 'M_(m', p)) s k
     (Z : 'M_(k, n + p)),
-  (forall r, behavior (with_faults S F G) r <-> behavior S r) /\ spans_solutions S s Z.
+  same_behavior (with_faults S F G) S /\ spans_solutions S s Z.
 Proof.
 have [k [Z [_ span]]] := EchelonExists.solutions_echelon_exists (plain K) 2.
 by exists 1%N, 1%N, 1%N, 1%N, (plain K), 1%:M, 0, 2%N, k, Z.
@@ -86,8 +86,8 @@ Qed.
 (** No point of a line needs to be bad. *)
 Theorem theorem_3_on_lines_instance (K : fieldType) : exists n m p (S : system K n m p) s k (Z : 'M_(k, n + p)) (P P1 : 'M_(m, k))
     (ts : seq K),
-  (n < s)%N /\ spans_solutions S s Z /\ left_invertible S /\ (forall r, behavior (faults_of S (P *m Z)) r <-> behavior S r) /\ uniq ts /\
-  (forall t, t \in ts -> ~ (forall r, behavior (faults_of S ((P + t *: P1) *m Z)) r <-> behavior S r)).
+  (n < s)%N /\ spans_solutions S s Z /\ left_invertible S /\ same_behavior (faults_of S (P *m Z)) S /\ uniq ts /\
+  (forall t, t \in ts -> ~ same_behavior (faults_of S ((P + t *: P1) *m Z)) S).
 Proof.
 have [k [Z [_ span]]] := EchelonExists.solutions_echelon_exists (plain K) 2.
 have [_ /(_ span)[P eP]] := Theorem3.theorem_3_part_i (S := plain K) (F := 1%:M) (G := 0) 2 Z (fun r => iff_refl _).

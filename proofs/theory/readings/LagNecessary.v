@@ -55,7 +55,7 @@ by rewrite /only_at ltn_eqF ?mul0mx // (leq_trans jk ks).
 Qed.
 
 (** A fault that solves problem (11) on s samples changes nothing there. *)
-Lemma same_words s r : solves S s f g -> word S s r <-> word fed_back s r.
+Lemma fed_back_words s r : solves S s f g -> word S s r <-> word fed_back s r.
 Proof.
 move=> /solvesP silent; split=> [r_word|[x [v h]]].
   have [x [v h]] := word_sub r_word (silent (strength 0 r)).
@@ -110,7 +110,7 @@ have gap_S' s : (M < s)%N -> gap S' s = gap S n.
   move=> Ms; apply/eqP; rewrite eqn_leq -{2}(settled s Ms) above andbT -(settled M.+1 (ltnSn M)).
   exact: leq_trans (gap_decreasing S' Ms) (mxrankS below).
 have Mn : (M < n + 1)%N by rewrite addn1 ltnS -ltnS -lag_S (leq_trans (lag_le_n S)).
-split; [exact: fed_back_left_invertible|by apply/lagP; rewrite !gap_S'|exact: gap_S'|by move=> r; apply: same_words|].
+split; [exact: fed_back_left_invertible|by apply/lagP; rewrite !gap_S'|exact: gap_S'|by move=> r; apply: fed_back_words|].
 (* g after M zeros, and the kick that it causes *)
 have /after_zerosP[x [v h]] := g_in.
 pose r k := output S x v k + only_at M.+1 g k; exists r; split; last first.

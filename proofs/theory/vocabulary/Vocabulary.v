@@ -56,6 +56,11 @@ End Systems.
 (** The same (A, C) with other fault matrices, of any number of faults. *)
 Definition with_faults K n m p m' (S : system K n m p) F G : system K n m' p := System (sysA S) F (sysC S) G.
 
+(** Two systems with outputs of as many entries, whatever their states and faults are: the same words of s samples, and the same
+    behaviour. *)
+Definition same_words K n m n' m' p (S : system K n m p) (S' : system K n' m' p) s := forall r, word S s r <-> word S' s r.
+Definition same_behavior K n m n' m' p (S : system K n m p) (S' : system K n' m' p) := forall r, behavior S r <-> behavior S' r.
+
 (** ** Windows: O_s, T_s and [O_s T_s] *)
 
 Section Windows.
