@@ -128,113 +128,167 @@ have [E' unitE] := complete_rows free; exists (col_mx h^T E')^T; rewrite unitmx_
 by exists E'^T; rewrite tr_col_mx trmxK.
 Qed.
 
-Theorem every_determinant e : forall r (a b : 'M[K]_(e, e + (1 + r))) (c : 'rV_(e + (1 + r))), row_free (col_mx b c) ->
-  (exists X, linear_rows b a *m X = 1%:M) -> exists Q : 'M_(r, e + (1 + r)), row_free (col_mx b (col_mx c Q)) /\
-  forall g : {poly K}, (size g <= e.+1)%N -> exists rho, \det (col_mx (linear_rows b a) (const (col_mx rho Q))) = g.
+(** No row: what is to follow is the row c, times any constant. *)
+Lemma assign_constant r (a b : 'M[K]_(0, 0 + (1 + r))) (c : 'rV_(0 + (1 + r))) : row_free (col_mx b c) ->
+  exists Q : 'M_(r, 0 + (1 + r)), row_free (col_mx b (col_mx c Q)) /\
+  forall g : {poly K}, (size g <= 1)%N -> exists rho, \det (col_mx (linear_rows b a) (const (col_mx rho Q))) = g.
 Proof.
-elim: e => [|e IH] r a b c free right.
-  have {}free : row_free c.
-    apply: inj_row_free => u u0; have : row_mx (0 : 'rV_0) u = 0
-    by apply: (row_free_inj free); rewrite mul_row_col !mul0mx add0r u0.
-    by move/(congr1 rsubmx); rewrite row_mxKr linear0.
-  have [Q unitQ] := @complete_rows K 1 r c free; exists Q; split; first by rewrite no_rows_above row_free_unit.
-  move=> g /size1_polyC ->; exists ((g`_0 / \det (col_mx c Q)) *: c); rewrite no_rows_above det_map_mx; congr polyC.
-  have -> : col_mx ((g`_0 / \det (col_mx c Q)) *: c) Q = block_mx (g`_0 / \det (col_mx c Q))%:M 0 0 1%:M *m col_mx c Q.
-    by rewrite mul_block_col !mul0mx mul1mx addr0 add0r mul_scalar_mx.
-  have dd t : \det (block_mx (t%:M : 'M[K]_1) 0 0 (1%:M : 'M_r)) = t by rewrite det_ublock det1 mulr1 det_scalar expr1.
-  rewrite det_mulmx; apply: etrans (congr1 (fun x => x * _) (dd _)) _; rewrite divfK // -unitfE -unitmxE.
-  exact: unitQ.
-have [h [bh ch ah]] : exists h : 'cV_(e.+1 + (1 + r)), [/\ b *m h = 0, c *m h != 0 & a *m h != 0].
-  apply: common_column; last exact: kernel_column right.
-  have : ~~ (c <= b)%MS.
-    apply/negP => /submxP[u cu]; have : row_mx u (- 1%:M) = 0.
-      by apply: (row_free_inj free); rewrite mul_row_col mulNmx mul1mx -cu subrr mul0mx.
-    move/(congr1 rsubmx); rewrite row_mxKr linear0 => /matrixP/(_ 0 0)/eqP.
-    by rewrite !mxE oppr_eq0 oner_eq0.
-  rewrite submxE => /matrix0Pn[i [j cij]]; exists (col j (cokermx b)); split; first by rewrite colE mulmxA mulmx_coker mul0mx.
-  apply: contraNneq cij; rewrite colE mulmxA -colE => /matrixP/(_ i 0); rewrite !mxE => ->.
-  exact: eqxx.
-have [H [unitH [H' HE]]] := unit_column (ltac:(by apply: contraNneq ch => ->; rewrite mulmx0) : h != 0).
-have [L1 [unitL1 [L1' LE]]] := unit_column (ltac:(by rewrite oppr_eq0) : - (a *m h) != 0).
-pose L := invmx L1; pose b1 := L *m b *m H; pose a1 := L *m a *m H; pose c1 := c *m H.
+move=> free; have {}free : row_free c.
+  apply: inj_row_free => u u0; have : row_mx (0 : 'rV_0) u = 0
+  by apply: (row_free_inj free); rewrite mul_row_col !mul0mx add0r u0.
+  by move/(congr1 rsubmx); rewrite row_mxKr linear0.
+have [Q unitQ] := @complete_rows K 1 r c free; exists Q; split; first by rewrite no_rows_above row_free_unit.
+move=> g /size1_polyC ->; exists ((g`_0 / \det (col_mx c Q)) *: c); rewrite no_rows_above det_map_mx; congr polyC.
+have -> : col_mx ((g`_0 / \det (col_mx c Q)) *: c) Q = block_mx (g`_0 / \det (col_mx c Q))%:M 0 0 1%:M *m col_mx c Q.
+  by rewrite mul_block_col !mul0mx mul1mx addr0 add0r mul_scalar_mx.
+have dd t : \det (block_mx (t%:M : 'M[K]_1) 0 0 (1%:M : 'M_r)) = t by rewrite det_ublock det1 mulr1 det_scalar expr1.
+rewrite det_mulmx; apply: etrans (congr1 (fun x => x * _) (dd _)) _; rewrite divfK // -unitfE -unitmxE.
+exact: unitQ.
+Qed.
+
+(** A constant column by which one row and one column are reduced. *)
+Lemma reducing_column N e (a b : 'M[K]_(e.+1, N)) (c : 'rV_N) : row_free (col_mx b c) -> (exists X, linear_rows b a *m X = 1%:M) ->
+  exists h : 'cV_N, [/\ b *m h = 0, c *m h != 0 & a *m h != 0].
+Proof.
+move=> free right; apply: common_column; last exact: kernel_column right.
+have : ~~ (c <= b)%MS.
+  apply/negP => /submxP[u cu]; have : row_mx u (- 1%:M) = 0.
+    by apply: (row_free_inj free); rewrite mul_row_col mulNmx mul1mx -cu subrr mul0mx.
+  move/(congr1 rsubmx); rewrite row_mxKr linear0 => /matrixP/(_ 0 0)/eqP.
+  by rewrite !mxE oppr_eq0 oner_eq0.
+rewrite submxE => /matrix0Pn[i [j cij]]; exists (col j (cokermx b)); split; first by rewrite colE mulmxA mulmx_coker mul0mx.
+apply: contraNneq cij; rewrite colE mulmxA -colE => /matrixP/(_ i 0); rewrite !mxE => ->.
+exact: eqxx.
+Qed.
+
+Section Reduction.
+Variables (e r : nat) (a b : 'M[K]_(1 + e, 1 + (e + (1 + r)))) (c : 'rV[K]_(1 + (e + (1 + r)))) (h : 'cV[K]_(1 + (e + (1 + r)))).
+Hypotheses (free : row_free (col_mx b c)) (bh : b *m h = 0) (ch : c *m h != 0).
+
+(** H begins with h, and L takes -a h to the first row of the identity. *)
+Variables (H : 'M[K]_(1 + (e + (1 + r)))) (H' : 'M[K]_(1 + (e + (1 + r)), e + (1 + r))) (L1 : 'M[K]_(1 + e)) (L1' : 'M[K]_(1 + e, e)).
+Hypotheses (unitH : H \in unitmx) (HE : H = row_mx h H') (unitL1 : L1 \in unitmx) (LE : L1 = row_mx (- (a *m h)) L1').
+Let L := invmx L1.
+Let beta : 'rV_(e + (1 + r)) := usubmx (L *m b *m H').
+Let b' : 'M_(e, e + (1 + r)) := dsubmx (L *m b *m H').
+Let alpha : 'rV_(e + (1 + r)) := usubmx (L *m a *m H').
+Let a' : 'M_(e, e + (1 + r)) := dsubmx (L *m a *m H').
+
+Lemma reduced_b : L *m b *m H = block_mx 0 beta 0 b'.
+Proof. by rewrite HE mul_mx_row -mulmxA bh mulmx0 block_mxEh col_mx0 vsubmxK. Qed.
+
+Lemma reduced_a : L *m a *m H = block_mx (- 1%:M) alpha 0 a'.
+Proof.
 have Lah : L *m (a *m h) = - col_mx 1%:M 0.
   have : L *m L1 = 1%:M by rewrite mulVmx.
   rewrite LE mul_mx_row scalar_mx_block block_mxEh => /eq_row_mx[].
   by rewrite mulmxN => /eqP; rewrite eqr_oppLR => /eqP.
-pose beta := usubmx (L *m b *m H'); pose b' := dsubmx (L *m b *m H').
-pose alpha := usubmx (L *m a *m H'); pose a' := dsubmx (L *m a *m H').
-have b1E : b1 = block_mx 0 beta 0 b' by rewrite /b1 HE mul_mx_row -mulmxA bh mulmx0 block_mxEh col_mx0 vsubmxK.
-have a1E : a1 = block_mx (- 1%:M) alpha 0 a' by rewrite /a1 HE mul_mx_row -mulmxA Lah opp_col_mx oppr0 block_mxEh vsubmxK.
-have c1E : c1 = row_mx (c *m h) (c *m H') by rewrite /c1 HE mul_mx_row.
-have linE : linear_rows b1 a1 = block_mx 1%:M (linear_rows beta alpha) 0 (linear_rows b' a').
-  rewrite b1E a1E !map_block_mx scale_block_mx opp_block_mx add_block_mx !map_mx0 !scaler0 !map_mxN map_mx1 opprK oppr0 !addr0 add0r.
-  by [].
-have linE1 : linear_rows b1 a1 = const L *m linear_rows b a *m const H.
-  by rewrite /b1 /a1 !map_mxM mulmxBr mulmxBl -!scalemxAr -!scalemxAl.
-have free1 : row_free (col_mx b' beta).
-  apply: inj_row_free => u; rewrite -[u]hsubmxK mul_row_col => u0.
-  have unitL : L \in unitmx by rewrite unitmx_inv.
-  have : row_mx (row_mx (rsubmx u) (lsubmx u) *m L) (0 : 'rV_1) = 0.
-    apply: (row_free_inj free); rewrite mul_row_col !mul0mx addr0; apply: (can_inj (mulmxK unitH)).
-    by rewrite mul0mx -!mulmxA [L *m _]mulmxA -/b1 b1E mul_row_block !mulmx0 addr0 addrC u0 row_mx0.
-  move/(congr1 lsubmx); rewrite row_mxKl linear0 => /(congr1 (mulmx^~ L1)).
-  rewrite -mulmxA mulVmx // mulmx1 mul0mx => e0.
-  by have := congr1 lsubmx e0; have := congr1 rsubmx e0; rewrite row_mxKl row_mxKr !linear0 => -> ->; rewrite row_mx0.
-have right1 : exists X, linear_rows b' a' *m X = 1%:M.
-  have [X XE] := right; pose Y := const (invmx H) *m X *m const L1.
-  have : linear_rows b1 a1 *m Y = 1%:M.
-    rewrite linE1 /Y -!mulmxA [const H *m _]mulmxA -map_mxM mulmxV // map_mx1 mul1mx [linear_rows b a *m _]mulmxA XE mul1mx.
-    by rewrite -map_mxM mulVmx // map_mx1.
-  rewrite linE -[Y]submxK mulmx_block scalar_mx_block => /eq_block_mx[_ _ _ e1].
-  by exists (drsubmx Y); rewrite -[RHS]e1 mul0mx add0r.
-have [Q' [freeQ' assign]] := IH r a' b' beta free1 right1.
-have bH : b *m H = L1 *m b1 by rewrite /b1 !mulmxA mulmxV ?mul1mx.
-exists (row_mx 0 Q' *m invmx H); split.
-  apply: inj_row_free => u; rewrite -[u]hsubmxK -[rsubmx u]hsubmxK !mul_row_col.
-  move: (lsubmx u) (lsubmx (rsubmx u)) (rsubmx (rsubmx u)) => u0 u2 u3 /(congr1 (mulmx^~ H)).
-  rewrite !mulmxDl mul0mx -!mulmxA mulVmx // mulmx1 bH -/c1 mulmxA b1E c1E -[u0 *m L1]hsubmxK mul_row_block !mul_mx_row !mulmx0.
-  rewrite !add_row_mx !addr0 add0r -[X in _ = X]row_mx0 => /eq_row_mx[e1 e2].
-  have u20 : u2 = 0.
-    move: e1 ch; rewrite [u2]mx11_scalar [c *m h]mx11_scalar mul_scalar_mx => /eqP; rewrite scaler_eq0 => /orP[/eqP -> _|/eqP -> /eqP//].
-    exact: raddf0.
-  have : row_mx (rsubmx (u0 *m L1)) (row_mx (lsubmx (u0 *m L1)) u3) = 0.
-    apply: (row_free_inj freeQ'); rewrite !mul_row_col mul0mx -[RHS]e2 u20 mul0mx add0r addrA; congr (_ + _); exact: addrC.
-  move=> z; have := congr1 lsubmx z; rewrite row_mxKl linear0 => w1.
-  have := congr1 rsubmx z; rewrite row_mxKr linear0 => z'; have := congr1 lsubmx z'; rewrite row_mxKl linear0 => w0.
-  have := congr1 rsubmx z'; rewrite row_mxKr linear0 => ->.
-  have : u0 *m L1 = 0 by rewrite -[LHS]hsubmxK w0 w1 row_mx0.
-  by move/(congr1 (mulmx^~ L)); rewrite mulmxK // mul0mx => ->; rewrite u20 !row_mx0.
-move=> g sg; have [sT eT] := leading_row b' a' beta alpha Q'; move: sT eT; set T := \det _ => sT eT.
-have lam0 : T`_e.+1 != 0 by rewrite eT -unitfE -unitmxE -row_free_unit.
-pose u := \det L * \det H; have u0 : u != 0.
-  by rewrite mulf_neq0 // -unitfE -unitmxE // unitmx_inv.
+by rewrite HE mul_mx_row -mulmxA Lah opp_col_mx oppr0 block_mxEh vsubmxK.
+Qed.
+
+Lemma reduced_rows : const L *m linear_rows b a *m const H = block_mx 1%:M (linear_rows beta alpha) 0 (linear_rows b' a').
+Proof.
+have -> : const L *m linear_rows b a *m const H = linear_rows (L *m b *m H) (L *m a *m H).
+  by rewrite !map_mxM mulmxBr mulmxBl -!scalemxAr -!scalemxAl.
+rewrite reduced_b reduced_a !map_block_mx scale_block_mx opp_block_mx add_block_mx !map_mx0 !scaler0 !map_mxN map_mx1 opprK oppr0.
+by rewrite !addr0 add0r.
+Qed.
+
+(** What is left after the reduction has the same two properties. *)
+Lemma reduced_free : row_free (col_mx b' beta).
+Proof.
+apply: inj_row_free => u; rewrite -[u]hsubmxK mul_row_col => u0.
+have : row_mx (row_mx (rsubmx u) (lsubmx u) *m L) (0 : 'rV_1) = 0.
+  apply: (row_free_inj free); rewrite mul_row_col !mul0mx addr0; apply: (can_inj (mulmxK unitH)).
+  by rewrite mul0mx -!mulmxA [L *m _]mulmxA reduced_b mul_row_block !mulmx0 addr0 addrC u0 row_mx0.
+move/(congr1 lsubmx); rewrite row_mxKl linear0 => /(congr1 (mulmx^~ L1)).
+rewrite -mulmxA mulVmx // mulmx1 mul0mx => e0.
+by have := congr1 lsubmx e0; have := congr1 rsubmx e0; rewrite row_mxKl row_mxKr !linear0 => -> ->; rewrite row_mx0.
+Qed.
+
+Lemma reduced_right : (exists X, linear_rows b a *m X = 1%:M) -> exists X, linear_rows b' a' *m X = 1%:M.
+Proof.
+move=> [X XE]; pose Y := const (invmx H) *m X *m const L1.
+have : const L *m linear_rows b a *m const H *m Y = 1%:M.
+  rewrite /Y -!mulmxA [const H *m _]mulmxA -map_mxM mulmxV // map_mx1 mul1mx [linear_rows b a *m _]mulmxA XE mul1mx.
+  by rewrite -map_mxM mulVmx // map_mx1.
+rewrite reduced_rows -[Y]submxK mulmx_block scalar_mx_block => /eq_block_mx[_ _ _ e1].
+by exists (drsubmx Y); rewrite -[RHS]e1 mul0mx add0r.
+Qed.
+
+(** Rows found for it are rows for q b - a. *)
+Lemma lifted_free (Q' : 'M_(r, e + (1 + r))) : row_free (col_mx b' (col_mx beta Q')) ->
+  row_free (col_mx b (col_mx c (row_mx 0 Q' *m invmx H))).
+Proof.
+move=> freeQ'; have bH : b *m H = L1 *m (L *m b *m H) by rewrite !mulmxA mulmxV ?mul1mx.
+have cH : c *m H = row_mx (c *m h) (c *m H') by rewrite HE mul_mx_row.
+apply: inj_row_free => u; rewrite -[u]hsubmxK -[rsubmx u]hsubmxK !mul_row_col.
+move: (lsubmx u) (lsubmx (rsubmx u)) (rsubmx (rsubmx u)) => u0 u2 u3 /(congr1 (mulmx^~ H)).
+rewrite !mulmxDl mul0mx -!mulmxA mulVmx // mulmx1 bH mulmxA reduced_b cH -[u0 *m L1]hsubmxK mul_row_block !mul_mx_row !mulmx0.
+rewrite !add_row_mx !addr0 add0r -[X in _ = X]row_mx0 => /eq_row_mx[e1 e2].
+have u20 : u2 = 0.
+  move: e1 ch; rewrite [u2]mx11_scalar [c *m h]mx11_scalar mul_scalar_mx => /eqP; rewrite scaler_eq0 => /orP[/eqP -> _|/eqP -> /eqP//].
+  exact: raddf0.
+have : row_mx (rsubmx (u0 *m L1)) (row_mx (lsubmx (u0 *m L1)) u3) = 0.
+  apply: (row_free_inj freeQ'); rewrite !mul_row_col mul0mx -[RHS]e2 u20 mul0mx add0r addrA; congr (_ + _); exact: addrC.
+move=> z; have := congr1 lsubmx z; rewrite row_mxKl linear0 => w1.
+have := congr1 rsubmx z; rewrite row_mxKr linear0 => z'; have := congr1 lsubmx z'; rewrite row_mxKl linear0 => w0.
+have := congr1 rsubmx z'; rewrite row_mxKr linear0 => ->.
+have : u0 *m L1 = 0 by rewrite -[LHS]hsubmxK w0 w1 row_mx0.
+by move/(congr1 (mulmx^~ L)); rewrite mulmxK // mul0mx => ->; rewrite u20 !row_mx0.
+Qed.
+
+Lemma lifted_determinant t rho' (Q' : 'M_(r, e + (1 + r))) :
+  (\det L * \det H) *: \det (col_mx (linear_rows b a) (const (col_mx (row_mx t%:M rho' *m invmx H) (row_mx 0 Q' *m invmx H)))) =
+  \det (col_mx (linear_rows b' a') (const (col_mx rho' Q'))) -
+    t *: \det (col_mx (linear_rows b' a') (col_mx (linear_rows beta alpha) (const Q'))).
+Proof.
+set M0 := col_mx _ _.
+have M1E : const (block_mx L 0 0 1%:M) *m M0 *m const H = col_mx (block_mx 1%:M (linear_rows beta alpha) 0 (linear_rows b' a'))
+    (col_mx (row_mx t%:P%:M (const rho')) (row_mx 0 (const Q'))).
+  rewrite map_block_mx !map_mx0 map_mx1 mul_block_col !mul0mx mul1mx addr0 add0r mul_col_mx reduced_rows -map_mxM mul_col_mx.
+  by rewrite !mulmxKV // map_col_mx !map_row_mx map_mx0 map_scalar_mx.
+transitivity (\det (const (block_mx L 0 0 (1%:M : 'M_(1 + r))) *m M0 *m const H)).
+  by rewrite !det_mulmx !det_map_mx det_ublock det1 mulr1 -mul_polyC rmorphM [LHS]mulrAC.
+rewrite M1E block_mxEv regroup_rows.
+pose l : 'M[{poly K}]_(e + (1 + r), 1) := col_mx 0 (col_mx t%:P%:M 0).
+have -> : col_mx (row_mx 1%:M (linear_rows beta alpha)) (col_mx (row_mx 0 (linear_rows b' a'))
+    (col_mx (row_mx t%:P%:M (const rho')) (row_mx 0 (const Q')))) =
+    block_mx 1%:M 0 l 1%:M *m block_mx 1%:M (linear_rows beta alpha) 0 (col_mx (linear_rows b' a')
+      (col_mx (const rho' - t%:P *: linear_rows beta alpha) (const Q'))).
+  rewrite mulmx_block !mul1mx !mul0mx ?mulmx0 !mulmx1 !addr0 /l !mul_col_mx !mul0mx mul_scalar_mx !add_col_mx !add0r.
+  by rewrite [_ + (_ - _)]addrC subrK block_mxEv -[row_mx (col_mx _ _) _]block_mxEh block_mxEv
+    -[row_mx (col_mx _ _) _]block_mxEh block_mxEv.
+apply: etrans (det_eliminate _ _ _) _; rewrite det_row_linear -map_col_mx -mul_polyC.
+by [].
+Qed.
+
+End Reduction.
+
+Theorem every_determinant e : forall r (a b : 'M[K]_(e, e + (1 + r))) (c : 'rV_(e + (1 + r))), row_free (col_mx b c) ->
+  (exists X, linear_rows b a *m X = 1%:M) -> exists Q : 'M_(r, e + (1 + r)), row_free (col_mx b (col_mx c Q)) /\
+  forall g : {poly K}, (size g <= e.+1)%N -> exists rho, \det (col_mx (linear_rows b a) (const (col_mx rho Q))) = g.
+Proof.
+elim: e => [|e IH] r a b c free right; first exact: assign_constant.
+have [h [bh ch ah]] := reducing_column free right.
+have [H [unitH [H' HE]]] := unit_column (ltac:(by apply: contraNneq ch => ->; rewrite mulmx0) : h != 0).
+have [L1 [unitL1 [L1' LE]]] := unit_column (ltac:(by rewrite oppr_eq0) : - (a *m h) != 0).
+have [Q' [freeQ' assign]] := IH r _ _ _ (reduced_free free bh unitH HE unitL1) (reduced_right bh unitH HE unitL1 LE right).
+exists (row_mx 0 Q' *m invmx H); split; first exact: (lifted_free bh ch unitH HE unitL1 freeQ').
+move=> g sg; have := lifted_determinant bh unitH HE unitL1 LE _ _ Q'.
+pose La := invmx L1 *m a *m H'; pose Lb := invmx L1 *m b *m H'.
+have [] := leading_row (dsubmx Lb) (dsubmx La) (usubmx Lb) (usubmx La) Q'; set T := \det _ => sT eT lifted.
+have lam0 : T`_e.+1 != 0 by rewrite eT -unitfE -unitmxE -row_free_unit; exact: freeQ'.
+pose u := \det (invmx L1) * \det H; have u0 : u != 0 by rewrite mulf_neq0 // -unitfE -unitmxE // unitmx_inv.
 pose g1 := u *: g; pose t := - (g1`_e.+1 / T`_e.+1).
 have sg1 : (size g1 <= e.+2)%N by rewrite size_scale.
 have [|rho' erho] := assign (g1 + t *: T).
   apply/leq_sizeP => k; rewrite leq_eqVlt => /orP[/eqP <-|ek].
     by rewrite coefD [(t *: T)`_ _]coefZ /t mulNr divfK // subrr.
   rewrite coefD [(t *: T)`_ _]coefZ (nth_default 0 (leq_trans sg1 ek)) (nth_default 0 (leq_trans sT ek)) mulr0.
-    exact: addr0.
-exists (row_mx t%:M rho' *m invmx H); apply: (@scalerI _ _ u) => //; rewrite -/g1.
-set M0 := col_mx _ _.
-have M1E : const (block_mx L 0 0 1%:M) *m M0 *m const H = col_mx (block_mx 1%:M (linear_rows beta alpha) 0 (linear_rows b' a'))
-    (col_mx (row_mx t%:P%:M (const rho')) (row_mx 0 (const Q'))).
-  rewrite map_block_mx !map_mx0 map_mx1 mul_block_col !mul0mx mul1mx addr0 add0r mul_col_mx -linE1 linE -map_mxM mul_col_mx.
-  by rewrite !mulmxKV // map_col_mx !map_row_mx map_mx0 map_scalar_mx.
-have : \det (const (block_mx L 0 0 (1%:M : 'M_(1 + r))) *m M0 *m const H) = g1.
-  rewrite M1E block_mxEv regroup_rows.
-  pose l : 'M[{poly K}]_(e + (1 + r), 1) := col_mx 0 (col_mx t%:P%:M 0).
-  have -> : col_mx (row_mx 1%:M (linear_rows beta alpha)) (col_mx (row_mx 0 (linear_rows b' a'))
-      (col_mx (row_mx t%:P%:M (const rho')) (row_mx 0 (const Q')))) =
-      block_mx 1%:M 0 l 1%:M *m block_mx 1%:M (linear_rows beta alpha) 0 (col_mx (linear_rows b' a')
-        (col_mx (const rho' - t%:P *: linear_rows beta alpha) (const Q'))).
-    rewrite mulmx_block !mul1mx !mul0mx ?mulmx0 !mulmx1 !addr0 /l !mul_col_mx !mul0mx mul_scalar_mx !add_col_mx !add0r.
-    by rewrite [_ + (_ - _)]addrC subrK block_mxEv -[row_mx (col_mx _ _) _]block_mxEh block_mxEv
-      -[row_mx (col_mx _ _) _]block_mxEh block_mxEv.
-  apply: etrans (det_eliminate _ _ _) _; rewrite det_row_linear -/T -map_col_mx erho -mul_polyC addrK.
-  by [].
-rewrite !det_mulmx !det_map_mx det_ublock det1 mulr1 => <-.
-rewrite -mul_polyC rmorphM [RHS]mulrAC.
-by [].
+  exact: addr0.
+exists (row_mx t%:M rho' *m invmx H); apply: (scalerI u0); rewrite -/g1.
+by apply: etrans (lifted t rho') _; rewrite erho addrK.
 Qed.
+
 End PencilAssignment.
