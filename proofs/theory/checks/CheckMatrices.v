@@ -240,7 +240,7 @@ End Trajectory.
 
 (** "reachability". *)
 Lemma reached_nth k M j : all (fun row => size row == n) (lA L) -> (size (lA L) <= n)%N -> size M = m -> (j < k * m)%N ->
-  rV n (nth [::] (reached k L M) j) = rV n (nth [::] M (j %% m)) *m iter (j %/ m) (mulmx^~ (mat _ n n (lA L))) 1%:M.
+  rV n (nth [::] (reachability_rows k L M) j) = rV n (nth [::] M (j %% m)) *m iter (j %/ m) (mulmx^~ (mat _ n n (lA L))) 1%:M.
 Proof.
 move=> rA sA; elim: k M j => [|k IH] M j sM /=; first by rewrite mul0n.
 have m0 : (j < k.+1 * m)%N -> (0 < m)%N by case: (m) => //; rewrite muln0.
@@ -258,7 +258,7 @@ case/and5P: (wf) => _ /andP[/eqP sA rA] /andP[/eqP sF rF] _ _.
 apply: (rank_reordered (f := @position n m) (g := id) (alpha := fun i => e ^+ (i %/ m).+1) (beta := fun=> 1)) ok _ _ _ _ _.
 - exact: position_onto.
 - by move=> i; exists i.
-- move=> i j; transitivity (rV n (nth [::] (reached n L (lF L)) i) 0 j); first by rewrite mxE.
+- move=> i j; transitivity (rV n (nth [::] (reachability_rows n L (lF L)) i) 0 j); first by rewrite mxE.
   rewrite reached_nth ?sA // mulr1 [X in _ = _ * X]mxE /reachability /position stackE [X in _ = _ * X]mxE /=.
   set k := (i %/ m)%N; set t := (i %% m)%N.
   have -> : rV n (nth [::] (lF L) t) = row (Ordinal (output_lt i)) (mat _ m n (lF L)) by rewrite rowK.

@@ -174,14 +174,14 @@ Theorem minimal_modulo s : (k <= p)%N /\
   \rank (window S s) = (s * (p - k) + \sum_(mu <- degrees rows) minn s mu)%N.
 Proof.
 case/andP: (ok) => _ /and4P[/andP[lead_unit lead_ok] /states_independent states few /pencil_minor_sound enough].
-have leads : \det (\matrix_(a < k, b < k) last 0 (c a) (pivot_of b) 0) != 0.
+have regular : \det (\matrix_(a < k, b < k) last 0 (c a) (pivot_of b) 0) != 0.
   move: (invertible_neq0 lead_unit); rewrite -(is_determinant_sound vanishing lead_ok); congr (\det _ != 0); apply/matrixP => a b.
   rewrite mxE [RHS]mxE [LHS]mxE (nth_map (0%N, [::])) // /at_pivots {1}/entry (nth_map 0%N) ?size_map // (nth_map (0%N, [::])) //.
   by rewrite last_row_over !mxE.
 have kernel (a : 'I_k) : passes S (c a) by have [] := row_facts (ltn_ord a).
 have nonempty (a : 'I_k) : (0 < size (c a))%N by rewrite row_over_size; have [] := row_facts (ltn_ord a).
 have {}few : (n + p <= \rank (over_fractions (pencil S)) + k)%N by apply: leq_trans few _; rewrite leq_add2r.
-have [kp ->] := seen_rank kernel nonempty leads states few s.
+have [kp ->] := seen_rank kernel nonempty regular states few s.
 split=> //; congr (_ + _)%N; rewrite /degrees big_map (big_nth (0%N, [::])) big_mkord.
 by apply: eq_bigr => a _; rewrite row_over_size.
 Qed.

@@ -18,7 +18,7 @@ Qed.
 
 Section RoomPastTheStates.
 Variables (K : fieldType) (n m p : nat) (S : system K n m p) (rows : seq (seq 'cV[K]_p)).
-Hypotheses (ind : independent_leads rows) (ann : annihilates rows S).
+Hypotheses (ind : independent_leading rows) (ann : annihilates rows S).
 
 Lemma room_decreasing j k : (j <= k)%N -> (room rows k <= room rows j)%N.
 Proof.
@@ -43,7 +43,7 @@ Let S := meant n m p L.
 
 (** The rows of hints: their leading coefficients, and all windows. *)
 Lemma minimal_independent rows h : minimal n m p l L rows h -> sorted leq [seq size row.2 | row <- rows] ->
-  independent_leads (meant_rows p rows).
+  independent_leading (meant_rows p rows).
 Proof.
 case/andP=> /and4P[l1 _ /allP shapes _] /and4P[/andP[lead_unit lead_ok] _ _ _] ascending.
 apply: ascending_independent => //; first by apply/allP => row /shapes/andP[].
@@ -52,16 +52,16 @@ move: (invertible_neq0 vanishing lead_unit); rewrite -(is_determinant_sound vani
 by apply: contraNneq => ->; rewrite rmorph0.
 Qed.
 
-Lemma rows_at_most p' rows : independent_leads (meant_rows p' rows) -> (size rows <= p')%N.
+Lemma rows_at_most p' rows : independent_leading (meant_rows p' rows) -> (size rows <= p')%N.
 Proof.
 move=> ind; pose k := sumn [seq size row.2 | row <- rows].
 have all_active : count (fun c => size c <= k.+1)%N (meant_rows p' rows) = size (meant_rows p' rows).
   apply/eqP; rewrite -all_count; apply/allP => c /mapP[row row_in ->].
   rewrite size_map; apply: leqW; rewrite /k sumnE big_map (big_rem row) //=; exact: leq_addr.
-by have := rank_leq_row (leads (meant_rows p' rows) k); rewrite ind size_filter all_active size_map.
+by have := rank_leq_row (leading_active (meant_rows p' rows) k); rewrite ind size_filter all_active size_map.
 Qed.
 
-Lemma bound_formula rows s : independent_leads (meant_rows p rows) -> all (fun row => 0 < size row.2)%N rows ->
+Lemma bound_formula rows s : independent_leading (meant_rows p rows) -> all (fun row => 0 < size row.2)%N rows ->
   bound (meant_rows p rows) s = (s * (p - size rows) + \sum_(eta <- degrees rows) minn s eta)%N.
 Proof.
 move=> /rows_at_most few nonempty; rewrite -ceiling_bound /ceiling; elim: s => [|s IH].
@@ -84,7 +84,7 @@ by case/andP: ok => /and4P[_ _ /allP shapes _] _; apply/allP => row /shapes/andP
 Qed.
 
 Lemma meets_sound s rows lower : meets n m p s l L rows lower ->
-  [/\ well_formed n m p L, independent_leads (meant_rows p rows), annihilates (meant_rows p rows) S
+  [/\ well_formed n m p L, independent_leading (meant_rows p rows), annihilates (meant_rows p rows) S
     & \rank (window S s) = bound (meant_rows p rows) s].
 Proof.
 case/andP=> wf; case: lower => [ws /and3P[/andP[ok ann] w /eqP e]|h /and3P[ascending ann ok]]; have {}ann := rows_annihilate wf ann.

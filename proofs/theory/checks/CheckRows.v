@@ -29,7 +29,7 @@ Proof. by rewrite -(last_map (column p)) /column vec_nil trmx0. Qed.
 
 (** Where the leading coefficients at the pivots are an invertible matrix, those of the rows up to any degree are independent. *)
 Lemma ascending_independent : all (fun row => row.1 < p)%N rows -> sorted leq [seq size row.2 | row <- rows] ->
-  mat ratF (size rows) (size rows) (leading rows) \in unitmx -> independent_leads (meant_rows p rows).
+  mat ratF (size rows) (size rows) (leading rows) \in unitmx -> independent_leading (meant_rows p rows).
 Proof.
 move=> /allP inside ascending unit_Q k; set Q := mat ratF _ _ _ in unit_Q.
 have takes := filter_sorted k.+1 ascending; set t := size [seq c <- rows | _] in takes.
@@ -43,7 +43,7 @@ pose P : 'M[rat]_(size rows, p) := \matrix_(b, i) (i == (row_of b).1 :> nat)%:R.
 pose E : 'M[rat]_(size rows, size (active (meant_rows p rows) k)) := \matrix_(b, a) (b == a :> nat)%:R.
 have nth_lead a : (a < t)%N -> last 0 (nth [::] (active (meant_rows p rows) k) a) = column p (last [::] (row_of a).2).
   by move=> a_t; rewrite eA (nth_map (0%N, [::])) ?last_columns ?nth_take // size_takel.
-have eP : P *m leads (meant_rows p rows) k = Q^T *m E.
+have eP : P *m leading_active (meant_rows p rows) k = Q^T *m E.
   apply/matrixP => b a; have a_t : (a < t)%N by rewrite -st.
   have pb : ((row_of b).1 < p)%N by apply/inside/mem_nth.
   rewrite [LHS]mxE (bigD1 (Ordinal pb)) //= big1 => [|i ib]; last first.
@@ -63,7 +63,7 @@ rewrite -[X in (X <= _)%N]rank_E -(mulKmx (_ : Q^T \in unitmx) E) ?unitmx_tr // 
 by apply: leq_trans (mxrankM_maxr _ _) _; apply: mxrankM_maxr.
 Qed.
 
-Theorem admissible_independent : admissible p rows -> independent_leads (meant_rows p rows).
+Theorem admissible_independent : admissible p rows -> independent_leading (meant_rows p rows).
 Proof.
 case/and3P=> /allP shapes ascending tri; apply: ascending_independent => //; first by apply/allP => row /shapes/andP[].
 rewrite (_ : mat _ _ _ _ = map_mx ratn (table_matrix (size rows) (size rows) (leading rows))); last exact: mat_image.

@@ -56,14 +56,14 @@ Lemma col_columns a : col a columns_of = column_of (c a).
 Proof. by apply/colP => i; rewrite !mxE. Qed.
 
 Variable pivot : 'I_k -> 'I_p.
-Hypothesis leads : \det (\matrix_(a, b) last 0 (c a) (pivot b) 0) != 0.
+Hypothesis regular : \det (\matrix_(a, b) last 0 (c a) (pivot b) 0) != 0.
 
 Lemma last_coefficient a : coefficient (c a) (size (c a)).-1 = col_mx 0 (last 0 (c a)).
 Proof. by rewrite /coefficient prednK ?nonempty // drop_size /= oppr0 nth_last. Qed.
 
 Lemma lead_neq0 a : last 0 (c a) != 0.
 Proof.
-apply: contraNneq leads => e; rewrite (expand_det_row _ a) big1 // => b _.
+apply: contraNneq regular => e; rewrite (expand_det_row _ a) big1 // => b _.
 by rewrite !mxE e mxE mul0r.
 Qed.
 
@@ -80,7 +80,7 @@ Qed.
 Lemma leading_columns : \rank (leading columns_of) = k.
 Proof.
 apply/eqP; rewrite eqn_leq rank_leq_col /=; apply: (@minor_rank _ _ _ _ _ (fun b => rshift n (pivot b)) id).
-rewrite -det_tr; congr (\det _ != 0): leads; apply/matrixP => a b; rewrite [LHS]mxE.
+rewrite -det_tr; congr (\det _ != 0): regular; apply/matrixP => a b; rewrite [LHS]mxE.
 have /matrixP/(_ (rshift n (pivot b)) 0) := last_coefficient a; rewrite [RHS]col_mxEd => <-.
 by rewrite [RHS]mxE [RHS]mxE [RHS]mxE degree_columns [columns_of _ _]mxE [column_of _ _ _]mxE coef_poly ltn_predL nonempty.
 Qed.

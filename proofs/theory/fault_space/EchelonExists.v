@@ -1,4 +1,4 @@
-(** Every row space has a reduced row echelon form: its pivots are the positions at which some vector of the space leads.
+(** Every row space has a reduced row echelon form: its pivots are where some vector of the space has its first entry.
 
             before l == the projection to the entries before l
     leading_from M l == the rows of M that vanish before l
@@ -14,7 +14,7 @@ Section Existence.
 Variables (K : fieldType) (a N : nat) (M : 'M[K]_(a, N)).
 Implicit Types (y : 'rV[K]_N) (l j : 'I_N).
 
-(** Vectors of the space that vanish before l, and the positions where one leads. *)
+(** Vectors of the space that vanish before l, and the positions where one has its first entry that is not zero. *)
 Definition before l : 'M[K]_N := \matrix_(i, j) ((i == j) && (j < l)%N)%:R.
 Definition leading_from l : 'M[K]_N := (M :&: kermx (before l))%MS.
 Definition is_pivot : pred 'I_N := fun l => col l (leading_from l) != 0.

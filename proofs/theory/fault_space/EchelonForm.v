@@ -11,7 +11,7 @@ Local Open Scope ring_scope.
 Section Uniqueness.
 Variables (K : fieldType) (N : nat).
 
-(** A nonzero combination of the rows leads at a pivot. *)
+(** A nonzero combination of the rows has its first entry that is not zero at a pivot. *)
 Lemma leading_pivot k (R : 'M[K]_(k, N)) (pivot : 'I_k -> 'I_N) (c : 'rV_k) (l : 'I_N) :
   (forall i j, R i (pivot j) = (i == j)%:R) -> (forall i (l : 'I_N), (l < pivot i)%N -> R i l = 0) ->
   (forall i j : 'I_k, (i < j)%N -> (pivot i < pivot j)%N) ->

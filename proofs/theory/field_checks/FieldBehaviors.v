@@ -18,16 +18,16 @@ Variables (n m n' m' p : nat) (L L' : listing R).
 Let S := system_of value n m p L.
 Let S' := system_of value n' m' p L'.
 
-Lemma rows_few rows : independent_leads (rows_of p rows) -> (size rows <= p)%N.
+Lemma rows_few rows : independent_leading (rows_of p rows) -> (size rows <= p)%N.
 Proof.
 move=> ind; pose k := sumn [seq size row.2 | row <- rows].
 have all_active : count (fun c => size c <= k.+1)%N (rows_of p rows) = size (rows_of p rows).
   apply/eqP; rewrite -all_count; apply/allP => c /mapP[row row_in ->].
   rewrite size_map; apply: leqW; rewrite /k sumnE big_map (big_rem row) //=; exact: leq_addr.
-by have := rank_leq_row (leads (rows_of p rows) k); rewrite ind size_filter all_active size_map.
+by have := rank_leq_row (leading_active (rows_of p rows) k); rewrite ind size_filter all_active size_map.
 Qed.
 
-Lemma bound_by_degrees rows s : independent_leads (rows_of p rows) -> all (fun row => 0 < size row.2)%N rows ->
+Lemma bound_by_degrees rows s : independent_leading (rows_of p rows) -> all (fun row => 0 < size row.2)%N rows ->
   bound (rows_of p rows) s = (s * (p - size rows) + \sum_(eta <- [seq (size row.2).-1 | row <- rows]) minn s eta)%N.
 Proof.
 move=> /rows_few few nonempty; rewrite -allowed_bound /allowed; elim: s => [|s IH].

@@ -117,20 +117,20 @@ Qed.
 End OneSystem.
 
 (** Rows that ascend, with independent leading coefficients. *)
-Lemma leads_unit rows Q : leads_independent rows Q -> mat (size rows) (size rows) (leads_at rows) \in unitmx.
+Lemma leading_unit rows Q : leading_independent rows Q -> mat (size rows) (size rows) (leading_at rows) \in unitmx.
 Proof.
-have sl : size (leads_at rows) = size rows by apply: size_map.
+have sl : size (leading_at rows) = size rows by apply: size_map.
 case: Q => [Q /andP[/eqP sQ one]|tri]; last by apply: (triangular_unit meaning tri) => // i j; rewrite mxE.
-suff : mat (size rows) (size rows) Q *m mat (size rows) (size rows) (leads_at rows) \in unitmx.
+suff : mat (size rows) (size rows) Q *m mat (size rows) (size rows) (leading_at rows) \in unitmx.
   by rewrite unitmx_mul => /andP[].
 apply: (diagonal_unit meaning one); first by rewrite size_map sQ.
 move=> i j; rewrite (nth_map [::]) ?sQ //.
-transitivity (vec (size rows) (row_times (nth [::] Q i) (leads_at rows)) 0 j); last by rewrite mxE.
+transitivity (vec (size rows) (row_times (nth [::] Q i) (leading_at rows)) 0 j); last by rewrite mxE.
 rewrite (vec_row_times meaning _ _ (_ : (_ <= size rows)%N)) ?sl // -row_mat -row_mul; by rewrite [RHS]mxE.
 Qed.
 
-Lemma ascend_independent p rows : ascend p rows -> mat (size rows) (size rows) (leads_at rows) \in unitmx ->
-  independent_leads (rows_of p rows).
+Lemma ascend_independent p rows : ascend p rows -> mat (size rows) (size rows) (leading_at rows) \in unitmx ->
+  independent_leading (rows_of p rows).
 Proof.
 case/andP=> /allP shapes ascending unit_Q k; set Q := mat _ _ _ in unit_Q.
 have inside row : row \in rows -> (row.1 < p)%N by move=> /shapes/andP[].
@@ -145,7 +145,7 @@ pose P : 'M[K]_(size rows, p) := \matrix_(b, i) (i == (row_number b).1 :> nat)%:
 pose E : 'M[K]_(size rows, size (active (rows_of p rows) k)) := \matrix_(b, a) (b == a :> nat)%:R.
 have nth_lead a : (a < t)%N -> last 0 (nth [::] (active (rows_of p rows) k) a) = column_of p (last [::] (row_number a).2).
   by move=> a_t; rewrite eA (nth_map (0%N, [::])) ?last_columns_of ?nth_take // size_takel.
-have eP : P *m leads (rows_of p rows) k = Q^T *m E.
+have eP : P *m leading_active (rows_of p rows) k = Q^T *m E.
   apply/matrixP => b a; have a_t : (a < t)%N by rewrite -st.
   have pb : ((row_number b).1 < p)%N by apply/inside/mem_nth.
   rewrite [LHS]mxE (bigD1 (Ordinal pb)) //= big1 => [|i ib]; last first.
@@ -177,11 +177,11 @@ Variables (n m p s : nat) (L : listing R) (rows : kernel_rows) (Q : option table
 Variables (ws : seq ((seq (numeral R) * table) * (nat * nat))) (ok : all_there_are n m p s L rows Q ws).
 Let S := system_of value n m p L.
 
-Theorem all_there_are_sound : [/\ sized n m p L, independent_leads (rows_of p rows), annihilates (rows_of p rows) S
+Theorem all_there_are_sound : [/\ sized n m p L, independent_leading (rows_of p rows), annihilates (rows_of p rows) S
   & \rank (window S s) = bound (rows_of p rows) s].
 Proof.
 case/and5P: ok => wf asc lead ann /andP[/(possible_rank wf) low /eqP sizes].
-have ind := ascend_independent asc (leads_unit lead); have annihilated := rows_annihilating wf ann; split=> //.
+have ind := ascend_independent asc (leading_unit lead); have annihilated := rows_annihilating wf ann; split=> //.
 by apply/eqP; rewrite eqn_leq window_bound //= -allowed_bound -sizes.
 Qed.
 

@@ -28,7 +28,7 @@ Proof. exact: BasisByStates.seen_by_states. Qed.
 Theorem minimal_basis_seen (K : fieldType) a b k (M : 'M[{poly K}]_(a, b)) (Y : 'M_(b, k)) (J W : 'M_(k, b)) q :
   M *m Y = 0 -> \rank (Vocabulary.leading Y) = k -> coprimep (\det (J *m Y)) (\det (W *m Y)) ->
   (b <= \rank (map_mx (horner_eval q) M) + k)%N -> minimal_basis M Y.
-Proof. by move=> kernel leads seen few; apply: (SeenBasis.minimal_basis_seen kernel seen few leads). Qed.
+Proof. by move=> kernel regular seen few; apply: (SeenBasis.minimal_basis_seen kernel seen few regular). Qed.
 
 (** Ranks of all windows: rows that annihilate the system, and what shows that there are no others, words or hints; or rows modulo l. *)
 Theorem check_window_ranks (n m p : nat) L l r etas ranks rows lower : check_window_ranks n m p r etas ranks l L rows lower ->

@@ -13,7 +13,7 @@ Definition controllable (K : fieldType) n m p nu (S : system K n m p) (B : 'M[K]
 Section Controllable.
 Variables (K : fieldType) (n m p nu : nat) (S : system K n m p) (B : 'M[K]_(nu, n)).
 
-Lemma reached_more q : (n <= q)%N -> (reached S B q :=: orbit (sysA S) B)%MS.
+Lemma steered_space_more q : (n <= q)%N -> (steered_space S B q :=: orbit (sysA S) B)%MS.
 Proof.
 move=> nq; apply/eqmxP/andP; split; apply/sumsmx_subP=> k _; rewrite genmxE.
   elim: (k : nat) => [|j IH]; first exact: orbit_contains.
@@ -21,14 +21,14 @@ move=> nq; apply/eqmxP/andP; split; apply/sumsmx_subP=> k _; rewrite genmxE.
 by apply: (sumsmx_sup (widen_ord nq k)) => //; rewrite genmxE.
 Qed.
 
-Lemma state_reached (u : nat -> 'rV_nu) k : (state (with_faults S B (0 : 'M_(nu, p))) 0 u k <= orbit (sysA S) B)%MS.
+Lemma state_steered (u : nat -> 'rV_nu) k : (state (with_faults S B (0 : 'M_(nu, p))) 0 u k <= orbit (sysA S) B)%MS.
 Proof.
 elim: k => [|k IH] /=; first exact: sub0mx.
 apply: addmx_sub; first by apply: submx_trans (submxMr _ IH) (orbit_stays _ _).
 exact: submx_trans (submxMl _ _) (orbit_contains _ _).
 Qed.
 
-Lemma reached_state q x : (x <= reached S B q)%MS -> exists u, state (with_faults S B (0 : 'M_(nu, p))) 0 u q = x.
+Lemma steered_space_state q x : (x <= steered_space S B q)%MS -> exists u, state (with_faults S B (0 : 'M_(nu, p))) 0 u q = x.
 Proof.
 case/sub_sumsmxP=> c ->.
 have /fin_all_exists[d hd] (k : 'I_q) : exists d : 'rV_nu, c k *m <<times_power S B k>>%MS = d *m times_power S B k.
@@ -42,11 +42,11 @@ rewrite sum; apply: eq_bigr => k _; have kq : (k <= q.-1)%N by rewrite -ltnS (lt
 by rewrite subKn // valK.
 Qed.
 
-Theorem controllable_reached q : (n <= q)%N -> controllable S B <-> row_full (reached S B q).
+Theorem controllable_steered_space q : (n <= q)%N -> controllable S B <-> row_full (steered_space S B q).
 Proof.
 move=> nq; rewrite -sub1mx; split=> [all_x|full x].
-  by apply/row_subP=> i; have [k [u <-]] := all_x (row i 1%:M); rewrite reached_more // state_reached.
-by exists q; apply: reached_state; apply: submx_trans full; apply: submx1.
+  by apply/row_subP=> i; have [k [u <-]] := all_x (row i 1%:M); rewrite steered_space_more // state_steered.
+by exists q; apply: steered_space_state; apply: submx_trans full; apply: submx1.
 Qed.
 
 End Controllable.
@@ -60,5 +60,5 @@ Theorem white_limit_controllable (K : fieldType) (N n m p nu : nat) (Q : 'M[K]_N
   projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> (L == O S s)%MS <-> controllable S (seen_B S J Phi B).
 Proof.
 move=> model u_white v_leads past nq Jqt tH obs limit.
-by rewrite (white_limit_right model u_white v_leads past Jqt tH obs limit) (controllable_reached _ _ nq).
+by rewrite (white_limit_right model u_white v_leads past Jqt tH obs limit) (controllable_steered_space _ _ nq).
 Qed.

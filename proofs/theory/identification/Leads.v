@@ -13,7 +13,7 @@ Section Definitions.
 Variables (K : fieldType) (n m p nu : nat) (S : system K n m p).
 
 (** What q samples of an input through B reach. *)
-Definition reached (B : 'M_(nu, n)) q : 'M[K]_n := (\sum_(j < q) <<times_power S B j>>)%MS.
+Definition steered_space (B : 'M_(nu, n)) q : 'M[K]_n := (\sum_(j < q) <<times_power S B j>>)%MS.
 
 End Definitions.
 
@@ -180,7 +180,7 @@ have e : t = ((t - q + j).+1 + (q.-1 - j))%N.
 by have jq := ltn_ord j; rewrite {2}e cov_state_after //; lia.
 Qed.
 
-Lemma reach_rows_eq q : (reach_rows q :=: reached S (seen_B S J Phi B) q)%MS.
+Lemma reach_rows_eq q : (reach_rows q :=: steered_space S (seen_B S J Phi B) q)%MS.
 Proof.
 apply/eqmxP/andP; split.
   apply: summx_sub => j _; apply: submx_trans (submxMl _ _) _.
@@ -197,12 +197,12 @@ Qed.
 
 (** Its rank, for (A, C) observable on s samples; so A and C are right iff A is controllable from B seen in q steps. *)
 Theorem white_limit_rank q t s L : (J + q <= t)%N -> (t + s + J <= H)%N -> row_free (O S s) ->
-  projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> \rank L = \rank (reached S (seen_B S J Phi B) q).
+  projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> \rank L = \rank (steered_space S (seen_B S J Phi B) q).
 Proof. by move=> Jqt tH obs /(white_limit Jqt tH)->; rewrite mxrankMfree // reach_rows_eq. Qed.
 
 Theorem white_limit_right q t s L : (J + q <= t)%N -> (t + s + J <= H)%N -> row_free (O S s) ->
   projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L ->
-  (L == O S s)%MS = row_full (reached S (seen_B S J Phi B) q).
+  (L == O S s)%MS = row_full (steered_space S (seen_B S J Phi B) q).
 Proof.
 move=> Jqt tH obs hL; have := white_limit_rank Jqt tH obs hL; move: hL => /(white_limit Jqt tH) e r.
 have sub : (L <= O S s)%MS by rewrite e submxMl.

@@ -148,7 +148,7 @@ Theorem proposition_1_white t q s k L B' D' : Q^T = Q -> (q <= t)%N -> (t + s <=
   row_free (O S s) -> row_free (O S k) ->
   projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L ->
   let mean_square B D := let e := y (t + k)%N - prediction S B D u t k in \tr (cov Q e e) in
-  [/\ (L == O S s)%MS = row_full (reached S B q), mean_square B D <= mean_square B' D' &
+  [/\ (L == O S s)%MS = row_full (steered_space S B q), mean_square B D <= mean_square B' D' &
       mean_square B' D' = mean_square B D -> B' = B /\ D' = D].
 Proof.
 move=> symmetric qt tH kH obs obs' limit mean_square.

@@ -47,14 +47,14 @@ Section SilentSubspaces.
 Variables (K : fieldType) (n m p : nat) (S : system K n m p).
 Implicit Types (x y : 'rV[K]_n) (v : nat -> 'rV[K]_m) (s t k : nat).
 
-Definition reached k : 'M[K]_n := iter k (silent_step S) 0.
+Definition silent_from_rest k : 'M[K]_n := iter k (silent_step S) 0.
 
-Lemma reachedP k y : (y <= reached k)%MS <-> silent_from_rest_at S k y.
+Lemma silent_from_restP k y : (y <= silent_from_rest k)%MS <-> silent_from_rest_at S k y.
 Proof.
 elim: k y => [|k IH] y.
   rewrite submx0; split=> [/eqP -> | [v [_ <-]]]; last exact: eqxx.
   by exists (fun=> 0).
-rewrite [reached _]/= silent_stepP; split=> [[x [w [/IH[v [h ex] e <-]]]] | [v [h <-]]].
+rewrite [silent_from_rest _]/= silent_stepP; split=> [[x [w [/IH[v [h ex] e <-]]]] | [v [h <-]]].
   exists (follow k v (fun=> w)); split=> [j|]; last by rewrite -[k.+1 in LHS]addn1 state_follow_after /= ex.
   rewrite ltnS leq_eqVlt => /orP[/eqP->|jk]; last by rewrite output_follow_before ?h.
   by rewrite -[k in output _ _ _ k]addn0 output_follow_after /output /= ex.
@@ -63,9 +63,9 @@ by apply/IH; exists v; split=> // j jk; apply/h/leqW.
 Qed.
 
 (** Reachable from rest with zero output, in any time. *)
-Theorem reachable_silently y : (y <= reached n)%MS <-> exists k, silent_from_rest_at S k y.
+Theorem reachable_silently y : (y <= silent_from_rest n)%MS <-> exists k, silent_from_rest_at S k y.
 Proof.
-split=> [/reachedP h | [k /reachedP h]]; first by exists n.
+split=> [/silent_from_restP h | [k /silent_from_restP h]]; first by exists n.
 exact: submx_trans h (increasing_constant (@silent_step_mono _ _ _ _ S) k).
 Qed.
 
@@ -107,11 +107,12 @@ Definition later_faults s t := lin1_mx (fun w : 'rV[K]_(t * m) => samples (s + t
 Lemma mul_later_faults s t (w : 'rV[K]_(t * m)) : w *m later_faults s t = samples (s + t) (follow s (fun=> 0) (unsamples w)).
 Proof. exact: mul_lin1 (@later_faults_linear s t). Qed.
 
-Lemma rank_rest s : \rank (rest s) = (\rank (reached s) + \rank (rest s :&: kermx (state_at s s)))%N.
+Lemma rank_rest s : \rank (rest s) = (\rank (silent_from_rest s) + \rank (rest s :&: kermx (state_at s s)))%N.
 Proof.
 rewrite -(mxrank_mul_ker (rest s) (state_at s s)); congr (_ + _)%N; apply: eqmx_rank; apply/andP; split; apply/row_subP => i.
-  by rewrite row_mul mul_state_at; apply/reachedP; exists (unsamples (row i (rest s))); split=> //; apply/restP/row_sub.
-have /reachedP[v [h <-]] := row_sub i (reached s); apply: submx_trans (_ : (samples s v *m state_at s s <= _)%MS); last first.
+  by rewrite row_mul mul_state_at; apply/silent_from_restP; exists (unsamples (row i (rest s))); split=> //; apply/restP/row_sub.
+have /silent_from_restP[v [h <-]] := row_sub i (silent_from_rest s).
+apply: submx_trans (_ : (samples s v *m state_at s s <= _)%MS); last first.
   exact/submxMr/rest_samples.
 by rewrite mul_state_at (state_ext _ _ (w := v)) // => j js; rewrite samplesK.
 Qed.
@@ -170,15 +171,15 @@ Qed.
 
 (** At time s on the way: any state reached at s from which t zeros are possible. *)
 Lemma rank_on_the_way s t : \rank (rest (s + t)) =
-  (\rank (reached s :&: iter t (hold_step S) 1%:M) + \rank (rest (s + t) :&: kermx (state_at (s + t) s)))%N.
+  (\rank (silent_from_rest s :&: iter t (hold_step S) 1%:M) + \rank (rest (s + t) :&: kermx (state_at (s + t) s)))%N.
 Proof.
 rewrite -(mxrank_mul_ker (rest (s + t)) (state_at (s + t) s)); congr (_ + _)%N; apply: eqmx_rank; apply/andP; split; apply/row_subP => i.
   rewrite row_mul mul_state_at; have /restP := row_sub i (rest (s + t)); move: (row i _) => w h.
   rewrite sub_capmx; apply/andP; split.
-    by apply/reachedP; exists (unsamples w); split=> // j js; apply: h; apply: ltn_addr.
+    by apply/silent_from_restP; exists (unsamples w); split=> // j js; apply: h; apply: ltn_addr.
   by apply/holdP; exists (fun k => unsamples w (s + k)%N) => j jt; rewrite -output_shift h // ltn_add2l.
-have := row_sub i (reached s :&: iter t (hold_step S) 1%:M)%MS; move: (row i _) => x; rewrite sub_capmx.
-case/andP => /reachedP[v [h <-]] /holdP[u q].
+have := row_sub i (silent_from_rest s :&: iter t (hold_step S) 1%:M)%MS; move: (row i _) => x; rewrite sub_capmx.
+case/andP => /silent_from_restP[v [h <-]] /holdP[u q].
 apply: submx_trans (_ : (samples (s + t) (follow s v u) *m state_at (s + t) s <= _)%MS).
   rewrite mul_state_at (state_ext _ _ (w := v)) // => j js.
   by rewrite samplesK ?ltn_addr // /follow js.
@@ -220,30 +221,30 @@ have := rank_leq_row (window S k); have := (rank_window_zeta S k).2 (leq_trans (
 Qed.
 
 (** For every system. *)
-Theorem rank_silent_subspaces : \rank (zero_holding S + reached n)%MS = zeta S.
+Theorem rank_silent_subspaces : \rank (zero_holding S + silent_from_rest n)%MS = zeta S.
 Proof.
 have twice : (\rank (zero_holding S) + \rank (rest (n + n)) + (n * gap S n + n * gap S n) = zeta S + (n * m + n * m))%N.
   by rewrite -!mulnDl rank_rest_zeta ?leq_addr.
 move: twice; have := rank_rest_zeta (leqnn n).
 have := rank_on_the_way n n; rewrite rank_back_at_rest -/(zero_holding S).
-have := rank_rest n; have := mxrank_sum_cap (zero_holding S) (reached n); rewrite capmxC; lia.
+have := rank_rest n; have := mxrank_sum_cap (zero_holding S) (silent_from_rest n); rewrite capmxC; lia.
 Qed.
 
 (** When the system is left-invertible, V and S meet in 0 only: the sum is direct. *)
-Lemma silent_subspaces_independent : left_invertible S -> forall x, (x <= zero_holding S)%MS -> (x <= reached n)%MS -> x = 0.
+Lemma silent_subspaces_independent : left_invertible S -> forall x, (x <= zero_holding S)%MS -> (x <= silent_from_rest n)%MS -> x = 0.
 Proof.
-move=> inv x /zero_holdingP/silent_for_ever[w quiet] /reachedP[v [h e]].
+move=> inv x /zero_holdingP/silent_for_ever[w quiet] /silent_from_restP[v [h e]].
 rewrite -e; apply: state_zero => j jn.
 suff -> : v j = follow n v w j by apply: inv => k; have [kn|nk] := ltnP k n;
   [rewrite output_follow_before ?h | rewrite -(subnKC nk) output_follow_after e quiet].
 by rewrite /follow jn.
 Qed.
 
-Theorem zeta_silent_subspaces : left_invertible S -> zeta S = (\rank (zero_holding S) + \rank (reached n))%N.
+Theorem zeta_silent_subspaces : left_invertible S -> zeta S = (\rank (zero_holding S) + \rank (silent_from_rest n))%N.
 Proof.
 move=> inv; rewrite -rank_silent_subspaces -mxrank_sum_cap.
-suff -> : (zero_holding S :&: reached n)%MS = 0 by rewrite mxrank0 addn0.
-apply/row_matrixP => i; rewrite row0; have := row_sub i (zero_holding S :&: reached n)%MS; rewrite sub_capmx => /andP[].
+suff -> : (zero_holding S :&: silent_from_rest n)%MS = 0 by rewrite mxrank0 addn0.
+apply/row_matrixP => i; rewrite row0; have := row_sub i (zero_holding S :&: silent_from_rest n)%MS; rewrite sub_capmx => /andP[].
 exact: silent_subspaces_independent.
 Qed.
 

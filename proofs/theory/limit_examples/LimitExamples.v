@@ -72,7 +72,7 @@ split.
 move=> x y model start; split=> [t q s L q0 qt tH limit|t k B' D' t1 k0 tkH wrong].
   have e := white_limit model u_white v_leads start qt tH limit; rewrite e; apply/eqmxP; apply: eqmxMfull.
   rewrite /row_full reach_rows_eq eB; have c0 := scalar_controllable ab0.
-  by apply/(controllable_reached S _ q0).
+  by apply/(controllable_steered_space S _ q0).
 rewrite -eB -eD; apply: (worse_fit model u_white v_leads start symmetric t1 tkH).
   exact: observed.
 rewrite eB eD; case: wrong => ->; [left|right] => /matrixP/(_ 0 0); rewrite /B !mxE.

@@ -18,19 +18,19 @@ Definition annihilates rows n m (S : system K n m p) := forall c x v, c \in rows
 
 (** The rows of degree at most k, the matrix of their leading coefficients, and what they leave. *)
 Definition active rows k := [seq c <- rows | (size c <= k.+1)%N].
-Definition leads rows k : 'M[K]_(p, size (active rows k)) := \matrix_(i, j) (last 0 (nth [::] (active rows k) j)) i 0.
-Definition independent_leads rows := forall k, \rank (leads rows k) = size (active rows k).
+Definition leading_active rows k : 'M[K]_(p, size (active rows k)) := \matrix_(i, j) (last 0 (nth [::] (active rows k) j)) i 0.
+Definition independent_leading rows := forall k, \rank (leading_active rows k) = size (active rows k).
 Definition room rows k := (p - size (active rows k))%N.
 Definition bound rows s := (\sum_(k < s) room rows k)%N.
 
-Variables (rows : seq (seq 'cV[K]_p)) (leads_independent : independent_leads rows).
+Variables (rows : seq (seq 'cV[K]_p)) (leading_independent : independent_leading rows).
 
 Lemma room_step s a (r : nat -> 'M[K]_(a, p)) : satisfies rows s.+1 r -> (\rank (kermx (stack s r) *m r s) <= room rows s)%N.
 Proof.
 move=> h; set N := kermx _; have silent k : (k < s)%N -> N *m r k = 0 by apply: (mul_stack_eq0 _ _ r).1; apply: mulmx_ker.
-suff /mulmx0_rank_max : N *m r s *m leads rows s = 0 by rewrite leads_independent /room; lia.
+suff /mulmx0_rank_max : N *m r s *m leading_active rows s = 0 by rewrite leading_independent /room; lia.
 apply/matrixP => i j; set c := nth [::] (active rows s) j.
-have -> : (N *m r s *m leads rows s) i j = (N *m r s *m last 0 c) i 0 by rewrite !mxE; apply: eq_bigr => l _; rewrite !mxE.
+have -> : (N *m r s *m leading_active rows s) i j = (N *m r s *m last 0 c) i 0 by rewrite !mxE; apply: eq_bigr => l _; rewrite !mxE.
 have : c \in active rows s by apply: mem_nth.
 rewrite mem_filter => /andP[cs c_in]; move: (h c (s.+1 - size c)%N c_in); rewrite subnK // => /(_ (leqnn _)).
 case: c cs {c_in} => [|c0 c] cs; first by rewrite mulmx0 !mxE.

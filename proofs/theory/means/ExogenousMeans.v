@@ -112,9 +112,9 @@ have seen_z i : (i < q + s)%N -> covariance E (later i u) (later q (zeta z)) 0.
   by rewrite /later mulmxN mulmxBl opprB addrC subrK.
 have null := zeta_null isE pos quasi cu cz driven st spectrum long seen_z.
 have after i : (s <= i)%N -> d i = 0 by move=> si; rewrite /d insubF // ltnNge si.
-have zero : reached S B n *m w = 0.
-  apply: unseen_by_reached => l ln; by have [-> //] := zeta_unreached isE pos quasi cu cz driven null exciting after.
-have : row_full (reached S B n) by apply/controllable_reached.
+have zero : steered_space S B n *m w = 0.
+  apply: unseen_by_steered => l ln; by have [-> //] := zeta_unreached isE pos quasi cu cz driven null exciting after.
+have : row_full (steered_space S B n) by apply/controllable_steered_space.
 by case/row_fullP => P PR; rewrite -[w]mul1mx -PR -mulmxA zero mulmx0.
 Qed.
 

@@ -83,9 +83,9 @@ rewrite /same_signal own_pair => -[Q _ h] x y v w e k; rewrite (h _ _ _ _ e); ha
 by [].
 Qed.
 
-Lemma reached_in_F k : \rank (sysF S *m sysC S) = m -> (reached S k <= sysF S)%MS.
+Lemma silent_from_rest_in_F k : \rank (sysF S *m sysC S) = m -> (silent_from_rest S k <= sysF S)%MS.
 Proof.
-move=> full; apply/row_subP => i; have /reachedP[v [silent <-]] := row_sub i (reached S k).
+move=> full; apply/row_subP => i; have /silent_from_restP[v [silent <-]] := row_sub i (silent_from_rest S k).
 case: k {i} silent => [|k] silent; first exact: sub0mx.
 suff rest j : (j <= k)%N -> state S 0 v j = 0 by rewrite /= rest // mul0mx add0r submxMl.
 elim: j => // j IH jk; have := silent j.+1 jk; rewrite /output G0 mulmx0 addr0 /= IH ?(ltnW jk) // mul0mx add0r -mulmxA.
@@ -101,7 +101,7 @@ have : (F' <= sysF S + zero_holding S)%MS.
   apply/row_subP => i; have sol : solves S n.+1 (row i F') 0.
     by have := (theorem_3_part_i n.+1 (0 : 'M_(0, _)) same).1 i; rewrite row0.
   have := (zero_state_solutions S _ (ltnSn n)).1 sol; rewrite zero_states_silent addsmxC => h.
-  by apply: submx_trans h _; apply: addsmxS (reached_in_F n full) (submx_refl _).
+  by apply: submx_trans h _; apply: addsmxS (silent_from_rest_in_F n full) (submx_refl _).
 case/sub_addsmxP => -[Q D] /= F'E; set N := D *m zero_holding S in F'E.
 have hidden (w : 'rV_m) : w *m N *m O S n = 0.
   by apply/unobservable/quiet/zero_holdingP; rewrite /N mulmxA submxMl.

@@ -87,13 +87,13 @@ rewrite aA aC bA bC map_mx0 scaler0 sub0r; congr block_mx; last by rewrite mulNm
 by rewrite mulNmx mulmxBr mul_mx_scalar map_mxM.
 Qed.
 
-Theorem exceptional_reached P : divides_minors (pencil (pair P)) (D P) /\
+Theorem exceptional_attained P : divides_minors (pencil (pair P)) (D P) /\
   exists2 c, c != 0 & exists C, \det (pencil (pair P) *m C) = c *: D P.
 Proof.
 have [[_ freeZ] freeU _ _ _] := coords.
-apply: det_reached (zero_rows P) _; last 1 first.
+apply: det_attained (zero_rows P) _; last 1 first.
 - move=> y; rewrite -[y]vsubmxK mul_block_col !mul0mx mul1mx add0r addr0 -[X in _ = X]col_mx0 => /eq_col_mx[+ ->].
-  rewrite mulNmx => /eqP; rewrite oppr_eq0 => /eqP Uy; apply: column_reached => x v silent.
+  rewrite mulNmx => /eqP; rewrite oppr_eq0 => /eqP Uy; apply: column_attained => x v silent.
   have /submxP[c ->] : (x <= U)%MS by apply: (@pair_zero_states P); exists v => k kn; apply/silent/ltnW.
   by rewrite -mulmxA Uy !mulmx0 addr0.
 - apply: inj_row_free => c; rewrite -[c]hsubmxK mul_row_block !mulmx0 mulmx1 add0r addr0 -row_mx0 => /eq_row_mx[] /eqP.
@@ -104,16 +104,16 @@ Qed.
 
 (** one-determinant, formula: the product of the diagonal form. *)
 Theorem exceptional_zero_polynomial P : gcd_of_minors (pencil (pair P)) (D P).
-Proof. by have [divides reached] := exceptional_reached P; apply: reached_gcd. Qed.
+Proof. by have [divides attained] := exceptional_attained P; apply: attained_gcd. Qed.
 
 (** Its roots are the finite zeros of the pair (unobservable modes among them). *)
 Theorem exceptional_roots P (F : fieldType) (f : {rmorphism K -> F}) (z : F) :
   (\rank (pencil_at (pair P) f z) < n + r)%N = root (map_poly f (D P)) z.
-Proof. by have [divides reached] := exceptional_reached P; rewrite -(reached_rank divides reached) pencil_eval. Qed.
+Proof. by have [divides attained] := exceptional_attained P; rewrite -(attained_rank divides attained) pencil_eval. Qed.
 
 Theorem exceptional_left_invertible P : left_invertible (pair P) <-> D P != 0.
 Proof.
-have [divides [c c0 [C e1]]] := exceptional_reached P; split=> [inv | D0].
+have [divides [c c0 [C e1]]] := exceptional_attained P; split=> [inv | D0].
   have [g [[_ g_max] g_size]] := number_of_finite_zeros inv; have := g_max _ divides.
   by apply: contraTneq => ->; rewrite dvd0p -size_poly_eq0 g_size.
 apply/left_invertible_pencil_rank/full_rank_over_fractions => u u0.

@@ -22,14 +22,14 @@ apply/row_subP => i; apply/hold_stepP; have [w [e h]] := nulling _ (row_sub i X)
 by exists w; split=> //; apply: submx_trans h IH.
 Qed.
 
-Lemma reached_smallest : smallest_input_containing S (reached S n).
+Lemma silent_from_rest_smallest : smallest_input_containing S (silent_from_rest S n).
 Proof.
 split=> [x v xW e | j X containing].
   apply: submx_trans (increasing_constant (@silent_step_mono _ _ _ _ S) n.+1).
   by apply/silent_stepP; exists x, v.
-suff sub k : (reached S k <= X)%MS by apply: sub.
+suff sub k : (silent_from_rest S k <= X)%MS by apply: sub.
 elim: k => [|k IH]; first exact: sub0mx.
-apply/row_subP => i; have /silent_stepP[x [w [xW e <-]]] := row_sub i (reached S k.+1).
+apply/row_subP => i; have /silent_stepP[x [w [xW e <-]]] := row_sub i (silent_from_rest S k.+1).
 by apply: containing => //; apply: submx_trans xW IH.
 Qed.
 
@@ -42,9 +42,9 @@ have [nulling max] := largest; have [nulling' max'] := zero_holding_largest.
 by apply/eqmxP; rewrite max' // max.
 Qed.
 
-Lemma smallestE : (W :=: reached S n)%MS.
+Lemma smallestE : (W :=: silent_from_rest S n)%MS.
 Proof.
-have [containing min] := smallest; have [containing' min'] := reached_smallest.
+have [containing min] := smallest; have [containing' min'] := silent_from_rest_smallest.
 by apply/eqmxP; rewrite min' // min.
 Qed.
 
@@ -70,4 +70,4 @@ End Extremal.
 
 Theorem extremal_subspaces_exist (K : fieldType) n m p (S : system K n m p) :
   exists V W : 'M_n, largest_output_nulling S V /\ smallest_input_containing S W.
-Proof. by exists (zero_holding S), (reached S n); split; [exact: zero_holding_largest | exact: reached_smallest]. Qed.
+Proof. by exists (zero_holding S), (silent_from_rest S n); split; [exact: zero_holding_largest | exact: silent_from_rest_smallest]. Qed.

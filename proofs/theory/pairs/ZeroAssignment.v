@@ -21,7 +21,7 @@ Lemma observable_right_inverse : exists Y : 'M_(n + p, n),
 Proof.
 pose S0 := with_faults S (0 : 'M[K]_(0, n)) (0 : 'M_(0, p)).
 have /fin_all_exists[y hy] : forall j : 'I_n, exists y, pencil S0 *m y = const (col_mx (col j 1%:M) (0 : 'cV_0)).
-  move=> j; apply: column_reached => x v silent; suff -> : x = 0 by rewrite mul0mx mulmx0 addr0.
+  move=> j; apply: column_attained => x v silent; suff -> : x = 0 by rewrite mul0mx mulmx0 addr0.
   apply: (row_free_inj obs); rewrite mul0mx mul_O; apply/samples_eq0 => k kn.
   rewrite -[RHS](silent k (ltnW kn)) -(output_free S (0 : 'M_(0, n)) 0); apply: output_ext => i _.
   by rewrite [v i]thinmx0.

@@ -39,13 +39,13 @@ Qed.
 
 Hypothesis states : forall w : 'I_k -> nat -> K, \sum_a \sum_(j < degree Y a) w a j *: coefm j (col a (usubmx Y)) = 0 ->
   forall a j, (j < degree Y a)%N -> w a j = 0.
-Hypothesis leads : \rank (leading Y) = k.
+Hypothesis regular : \rank (leading Y) = k.
 
 Theorem minimal_basis_by_states : (n + p <= \rank (over_fractions (pencil S)) + k)%N -> minimal_basis (pencil S) Y.
 Proof.
-have [|B] := inverse_by_states states_low states _ (leading_rows leads).
+have [|B] := inverse_by_states states_low states _ (leading_rows regular).
   by move=> i a a0; rewrite mxE -a0 size_column.
-by rewrite vsubmxK => BY few; apply: minimal_basis_by_inverse BY few leads.
+by rewrite vsubmxK => BY few; apply: minimal_basis_by_inverse BY few regular.
 Qed.
 
 End OneSystem.
@@ -75,8 +75,8 @@ Theorem seen_by_states k (Y : 'M[{poly K}]_(n + p, k)) q : pencil S *m Y = 0 -> 
   (n + p <= \rank (map_mx (horner_eval q) (pencil S)) + k)%N \/ (p <= \rank (sysG S) + k)%N ->
   minimal_basis (pencil S) Y /\ forall s, \rank (window S s) = (s * (p - k) + \sum_(a < k) minn s (degree Y a))%N.
 Proof.
-move=> kernel leads states few; have basis : minimal_basis (pencil S) Y; last by have [_] := basis_windows basis.
-apply: minimal_basis_by_states kernel states leads _; case: few => [at_q|at_infinity].
+move=> kernel regular states few; have basis : minimal_basis (pencil S) Y; last by have [_] := basis_windows basis.
+apply: minimal_basis_by_states kernel states regular _; case: few => [at_q|at_infinity].
   by apply: leq_trans at_q _; rewrite leq_add2r rank_at_point.
 by apply: leq_trans (leq_add rank_at_infinity (leqnn k)); rewrite -addnA leq_add2l.
 Qed.

@@ -68,24 +68,24 @@ exact/mxrankS/(driven_stays stop)/ltnW.
 Qed.
 
 (** Silently reached is reached. *)
-Lemma reached_driven k : (reached S k <= driven k)%MS.
+Lemma silent_from_rest_driven k : (silent_from_rest S k <= driven k)%MS.
 Proof.
 elim: k => [|k IH]; first exact: sub0mx.
-apply/row_subP => i; have /silent_stepP[x [w [xk _ <-]]] := row_sub i (reached S k.+1).
+apply/row_subP => i; have /silent_stepP[x [w [xk _ <-]]] := row_sub i (silent_from_rest S k.+1).
 apply: addmx_sub; [apply: submx_trans (addsmxSl _ _); apply/submxMr/(submx_trans xk IH) | ].
 exact: submx_trans (submxMl _ _) (addsmxSr _ _).
 Qed.
 
 (** From the delay on the states that are reached silently are no more: the first fault on the way is zero. *)
-Lemma reached_after_delay l : inverts_with_delay S l -> (reached S n <= reached S l)%MS.
+Lemma silent_from_rest_after_delay l : inverts_with_delay S l -> (silent_from_rest S n <= silent_from_rest S l)%MS.
 Proof.
-move=> inv; have stop : (reached S l.+1 <= reached S l)%MS.
-  apply/row_subP => i; have /reachedP[v [h <-]] := row_sub i (reached S l.+1).
+move=> inv; have stop : (silent_from_rest S l.+1 <= silent_from_rest S l)%MS.
+  apply/row_subP => i; have /silent_from_restP[v [h <-]] := row_sub i (silent_from_rest S l.+1).
   have v0 : v 0%N = 0 by apply: inv => k kl; apply: h.
-  apply/reachedP; exists (fun j => v j.+1); split=> [j jl|].
+  apply/silent_from_restP; exists (fun j => v j.+1); split=> [j jl|].
     by rewrite -[RHS](h j.+1) // output_step v0 !mul0mx addr0.
   by rewrite state_step v0 !mul0mx addr0.
-have stays k : (l <= k)%N -> (reached S k <= reached S l)%MS.
+have stays k : (l <= k)%N -> (silent_from_rest S k <= silent_from_rest S l)%MS.
   by move=> /subnK <-; elim: (k - l)%N => [|d IH]; [apply: submx_refl | apply: submx_trans stop; apply: silent_step_mono].
 have [nl|ln] := leqP n l; first exact: (increasing (@silent_step_mono _ _ _ _ S)).
 exact/stays/ltnW.
@@ -97,7 +97,7 @@ Proof.
 move=> inv infinite; have left_inv : left_invertible S by apply: (left_inversion_delay S).2.2; exists l.
 rewrite (infinite_zeros_unique infinite (number_of_infinite_zeros left_inv)).
 have := index_and_rank l; rewrite [\rank (driven n)]rank_driven -[reachability_of S n]/(reachability S).
-have := mxrankS (submx_trans (reached_after_delay inv) (reached_driven l)); lia.
+have := mxrankS (submx_trans (silent_from_rest_after_delay inv) (silent_from_rest_driven l)); lia.
 Qed.
 
 End ControlDelay.

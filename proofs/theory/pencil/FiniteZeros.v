@@ -39,7 +39,7 @@ by rewrite {1}ZR -!mulmxA -mulmxDr quiet mulmx0.
 Qed.
 
 (** Columns of the pencil: what vanishes on all silent pairs (x, v(0)) of n + 1 samples. *)
-Lemma column_reached (beta : 'cV[K]_n) (gamma : 'cV[K]_m) :
+Lemma column_attained (beta : 'cV[K]_n) (gamma : 'cV[K]_m) :
   (forall x v, (forall k, (k < n.+1)%N -> output S x v k = 0) -> x *m beta + v 0%N *m gamma = 0) ->
   exists y, pencil S *m y = const (col_mx beta gamma).
 Proof.
@@ -143,25 +143,25 @@ rewrite !map_row_mx map_mx0 mul_row_block mul_mx_row mulmx0 mulmxBr mulmxN -!map
 by rewrite mulmxBl mul_mx_scalar mul_scalar_mx map_mxM.
 Qed.
 
-Lemma minors_reached : divides_minors (pencil S) (char_poly M) /\ exists2 c, c != 0 & exists C, \det (pencil S *m C) = c *: char_poly M.
+Lemma minors_attained : divides_minors (pencil S) (char_poly M) /\ exists2 c, c != 0 & exists C, \det (pencil S *m C) = c *: char_poly M.
 Proof.
 have [free _ _ _] := dynamics; have freeE : row_free E.
   by apply: inj_row_free => u; rewrite mul_mx_row -[X in _ = X -> _]row_mx0 => /eq_row_mx[/eqP]; rewrite mulmx_free_eq0 // => /eqP ->.
 have freeZ : row_free (row_mx Z (0 : 'M_(d, p))).
   by apply: inj_row_free => u; rewrite mul_mx_row -[X in _ = X -> _]row_mx0 => /eq_row_mx[/eqP]; rewrite mulmx_free_eq0 // => /eqP ->.
-apply: det_reached freeE freeZ silent_rows _ => y; rewrite -[y]vsubmxK mul_row_col => Ey.
-apply: column_reached => x v /silent_pair[a [-> ->]].
+apply: det_attained freeE freeZ silent_rows _ => y; rewrite -[y]vsubmxK mul_row_col => Ey.
+apply: column_attained => x v /silent_pair[a [-> ->]].
 by rewrite -!mulmxA -mulmxDr Ey mulmx0.
 Qed.
 
 (** Headlines. *)
 Theorem zero_polynomial : gcd_of_minors (pencil S) (char_poly M).
-Proof. have [divides reached] := minors_reached; exact: reached_gcd. Qed.
+Proof. have [divides attained] := minors_attained; exact: attained_gcd. Qed.
 
 Theorem finite_zeros (F : fieldType) (f : {rmorphism K -> F}) (z : F) :
   (\rank (pencil_at S f z) < n + m)%N = root (map_poly f (char_poly M)) z.
 Proof.
-by have [divides reached] := minors_reached; rewrite -(reached_rank divides reached) pencil_eval.
+by have [divides attained] := minors_attained; rewrite -(attained_rank divides attained) pencil_eval.
 Qed.
 
 Lemma rank_zero_dynamics : d = \rank (zero_holding S).

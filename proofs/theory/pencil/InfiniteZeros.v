@@ -49,15 +49,16 @@ Section InfiniteZeros.
 Variables (K : fieldType) (n m p : nat) (S : system K n m p).
 Notation const := (map_mx (@polyC K)).
 
-Theorem infinite_dynamics_exists : exists (L : 'M_(\rank (reached S n), m)) N, infinite_dynamics S (row_base (reached S n)) L N.
+Theorem infinite_dynamics_exists : exists (L : 'M_(\rank (silent_from_rest S n), m)) N,
+  infinite_dynamics S (row_base (silent_from_rest S n)) L N.
 Proof.
-have := row_base_free (reached S n); set Z := row_base _ => free.
-have inZ (x : 'rV_n) : (x <= Z)%MS <-> (x <= reached S n)%MS by rewrite eq_row_base.
+have := row_base_free (silent_from_rest S n); set Z := row_base _ => free.
+have inZ (x : 'rV_n) : (x <= Z)%MS <-> (x <= silent_from_rest S n)%MS by rewrite eq_row_base.
 clearbody Z.
-have /fin_all_exists[a ha] : forall i, exists a : 'rV_(\rank (reached S n)) * 'rV_m,
+have /fin_all_exists[a ha] : forall i, exists a : 'rV_(\rank (silent_from_rest S n)) * 'rV_m,
     a.1 *m Z *m sysC S + a.2 *m sysG S = 0 /\ a.1 *m Z *m sysA S + a.2 *m sysF S = row i Z.
   move=> i; have /inZ h := row_sub i Z.
-  have /silent_stepP[x [w [/inZ/submxP[b ->] e f]]] : (row i Z <= silent_step S (reached S n))%MS.
+  have /silent_stepP[x [w [/inZ/submxP[b ->] e f]]] : (row i Z <= silent_step S (silent_from_rest S n))%MS.
     apply: submx_trans h _; exact: (increasing (@silent_step_mono _ _ _ _ S) (leqnSn n)).
   by exists (b, w).
 exists (\matrix_i (a i).2), (\matrix_i (a i).1); split=> //.
@@ -70,7 +71,7 @@ Section Dynamics.
 Variables (d : nat) (Z : 'M[K]_(d, n)) (L : 'M[K]_(d, m)) (N : 'M[K]_d).
 Hypotheses (inv : left_invertible S) (dynamics : infinite_dynamics S Z L N).
 
-Lemma rank_infinite_dynamics : d = \rank (reached S n).
+Lemma rank_infinite_dynamics : d = \rank (silent_from_rest S n).
 Proof.
 have [/eqP full inZ _ _] := dynamics; rewrite -[LHS]full; apply: eqmx_rank; apply/andP; split; apply/row_subP => i.
   by apply/reachable_silently/inZ/row_sub.
@@ -106,10 +107,10 @@ Qed.
 Lemma nilpotent : iter n (mulmx N) 1%:M = 0.
 Proof.
 have [free inZ _ _] := dynamics.
-have back k (a : 'rV_d) : (a *m Z <= reached S k)%MS -> a *m iter k (mulmx N) 1%:M = 0.
+have back k (a : 'rV_d) : (a *m Z <= silent_from_rest S k)%MS -> a *m iter k (mulmx N) 1%:M = 0.
   elim: k a => [|k IH] a; first by rewrite submx0 mulmx_free_eq0 // => /eqP ->; apply: mul0mx.
-  rewrite [reached _ _]/= => /silent_stepP[x [w [xk e f]]].
-  have xZ : (x <= Z)%MS by apply/inZ; exists k; apply/reachedP.
+  rewrite [silent_from_rest _ _]/= => /silent_stepP[x [w [xk e f]]].
+  have xZ : (x <= Z)%MS by apply/inZ; exists k; apply/silent_from_restP.
   by have [xE _] := step_unique xZ f e; rewrite /= mulmxA IH // -xE.
 apply/row_matrixP => i; rewrite row0 rowE; apply: back; apply/reachable_silently/inZ; exact: submxMl.
 Qed.
@@ -135,7 +136,7 @@ have freeE : row_free E.
   by rewrite uNZ uL !mul0mx addr0.
 have freeZ : row_free (row_mx Z (0 : 'M_(d, p))).
   by apply: inj_row_free => u; rewrite mul_mx_row -[X in _ = X -> _]row_mx0 => /eq_row_mx[/eqP]; rewrite mulmx_free_eq0 // => /eqP ->.
-have [|divides [g g0 [C e]]] := det_reached_in_0 freeE freeZ silent_rows_at_infinity.
+have [|divides [g g0 [C e]]] := det_attained_in_0 freeE freeZ silent_rows_at_infinity.
   move=> y; have -> : map_mx (coefp 0) (pencil_at_infinity S) = block_mx 1%:M (sysC S) 0 (sysG S).
     rewrite map_block_mx; congr block_mx; apply/matrixP => i j; rewrite !mxE /= ?coefC ?eqxx // ?coefB ?coefN coefXM ?subr0 ?oppr0 //.
     by case: (i == j); rewrite ?coef1 ?coef0.
@@ -143,7 +144,7 @@ have [|divides [g g0 [C e]]] := det_reached_in_0 freeE freeZ silent_rows_at_infi
   have xZ : (lsubmx y <= Z)%MS by rewrite xE submxMl.
   have [_ inZ _ _] := dynamics.
   have /submxP[b bE] : ((lsubmx y *m sysA S + rsubmx y *m sysF S)%R <= Z)%MS.
-    have /inZ[k /reachedP hk] := xZ; apply/inZ; exists k.+1; apply/reachedP/silent_stepP.
+    have /inZ[k /silent_from_restP hk] := xZ; apply/inZ; exists k.+1; apply/silent_from_restP/silent_stepP.
     by exists (lsubmx y), (rsubmx y).
   by have [-> ->] := step_unique xZ bE f; rewrite -mulmxA -mul_mx_row submxMl.
 have detE : \det (- char_poly_mx N) = (-1) ^+ d *: 'X^d.
@@ -167,7 +168,7 @@ End Dynamics.
 Lemma infinite_zeros_unique d d' : infinite_zeros S d -> infinite_zeros S d' -> d = d'.
 Proof. by move=> h h'; apply/eqP; rewrite eqn_leq; apply/andP; split; [apply/h'/h | apply/h/h']. Qed.
 
-Theorem number_of_infinite_zeros : left_invertible S -> infinite_zeros S (\rank (reached S n)).
+Theorem number_of_infinite_zeros : left_invertible S -> infinite_zeros S (\rank (silent_from_rest S n)).
 Proof. by move=> inv; have [L [N dynamics]] := infinite_dynamics_exists; apply: infinite_zeros_count dynamics. Qed.
 
 Theorem number_of_finite_zeros : left_invertible S ->

@@ -12,7 +12,7 @@ Theorem rank_pencil_at_infinity (K : fieldType) n m p (S : system K n m p) :
 Proof.
 apply/eqP; rewrite eqn_leq; apply/andP; split; last first.
   rewrite leqNgt; apply/negP => few; have count := number_of_system_infinite_zeros S.
-  have /count : divides_minors_of_order (n + gap S n) (pencil_at_infinity S) 'X^(\rank (reached S n) - \rank (both S)).+1.
+  have /count : divides_minors_of_order (n + gap S n) (pencil_at_infinity S) 'X^(\rank (silent_from_rest S n) - \rank (both S)).+1.
     move=> h f; have [->|d0] := eqVneq (\det (mxsub h f (pencil_at_infinity S))) 0; first exact: dvdp0.
     move: few; rewrite ltnNge (@minor_rank _ _ _ _ _ h f) // /over_fractions -map_mxsub det_map_mx tofrac_eq0.
     exact: d0.

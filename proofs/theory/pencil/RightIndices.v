@@ -127,10 +127,10 @@ by rewrite ua => /(row_free_inj free) ->; apply: trmxK.
 Qed.
 
 (** From n samples on. *)
-Lemma rank_loops s : (n <= s)%N -> (\rank (loops s) + \rank (zero_holding S :&: reached S n)%MS = s * (m - gap S n))%N.
+Lemma rank_loops s : (n <= s)%N -> (\rank (loops s) + \rank (zero_holding S :&: silent_from_rest S n)%MS = s * (m - gap S n))%N.
 Proof.
 move=> ns; have := rank_on_the_way S s n; rewrite rank_back_at_rest -/(loops s) -/(zero_holding S).
-have -> : \rank (reached S s :&: zero_holding S)%MS = \rank (zero_holding S :&: reached S n)%MS.
+have -> : \rank (silent_from_rest S s :&: zero_holding S)%MS = \rank (zero_holding S :&: silent_from_rest S n)%MS.
   rewrite capmxC; apply: eqmx_rank; have up := increasing_constant (@silent_step_mono _ _ _ _ S) s.
   by rewrite !capmxS ?submx_refl // (increasing (@silent_step_mono _ _ _ _ S) ns).
 have total : (\rank (zero_holding S) + \rank (kermx (T S (s + n))) + (s * gap S n + n * gap S n) = zeta S + (s * m + n * m))%N.
@@ -143,28 +143,28 @@ Qed.
 Theorem right_minimal_basis : exists Y : 'M_(n + m, m - gap S n), minimal_basis (pencil S)^T Y.
 Proof.
 apply: (minimal_basis_exists row_kernel_dimension (N := n)) => s ns.
-apply: (@addIn (\rank (zero_holding S :&: reached S n)%MS)); rewrite rank_loops ?(leqW ns) // addnAC rank_loops //.
+apply: (@addIn (\rank (zero_holding S :&: silent_from_rest S n)%MS)); rewrite rank_loops ?(leqW ns) // addnAC rank_loops //.
 by rewrite mulSn addnC.
 Qed.
 
 (** Any minimal basis has as many, and the sum of its degrees is dim (V n S). *)
 Theorem right_indices d (Y : 'M_(n + m, d)) : minimal_basis (pencil S)^T Y ->
-  d = (m - gap S n)%N /\ (\sum_(j < d) degree Y j = \rank (zero_holding S :&: reached S n)%MS)%N.
+  d = (m - gap S n)%N /\ (\sum_(j < d) degree Y j = \rank (zero_holding S :&: silent_from_rest S n)%MS)%N.
 Proof. by move=> basis_Y; apply: (sum_of_indices row_kernel_dimension basis_Y (N := n)) => s; apply: rank_loops. Qed.
 
 (** Where n goes. *)
 Theorem dimension_balance c d (X : 'M_(n + p, c)) (Y : 'M_(n + m, d)) :
   minimal_basis (pencil S) X -> minimal_basis (pencil S)^T Y ->
   n = (\sum_(j < c) degree X j + \sum_(j < d) degree Y j +
-       (\rank (zero_holding S) - \rank (zero_holding S :&: reached S n)%MS) +
-       (\rank (reached S n) - \rank (zero_holding S :&: reached S n)%MS))%N.
+       (\rank (zero_holding S) - \rank (zero_holding S :&: silent_from_rest S n)%MS) +
+       (\rank (silent_from_rest S n) - \rank (zero_holding S :&: silent_from_rest S n)%MS))%N.
 Proof.
 move=> basis_X /right_indices[_ ->]; have -> : (\sum_(j < c) degree X j = sumn (etas S))%N.
   by rewrite -(perm_sumn (etas_are_minimal_indices basis_X)) sumnE big_map big_enum.
 have := rank_silent_subspaces S; rewrite /zeta; have := sum_etas_le_n S.
-have := mxrank_sum_cap (zero_holding S) (reached S n).
-have := mxrankS (capmxSl (zero_holding S) (reached S n)); have := mxrankS (capmxSr (zero_holding S) (reached S n)).
-move: (\rank _) (\rank (_ + _)%MS) (\rank (zero_holding S)) (\rank (reached S n)) => i j k l. lia.
+have := mxrank_sum_cap (zero_holding S) (silent_from_rest S n).
+have := mxrankS (capmxSl (zero_holding S) (silent_from_rest S n)); have := mxrankS (capmxSr (zero_holding S) (silent_from_rest S n)).
+move: (\rank _) (\rank (_ + _)%MS) (\rank (zero_holding S)) (\rank (silent_from_rest S n)) => i j k l. lia.
 Qed.
 
 End RightIndices.

@@ -14,7 +14,7 @@ Section Definitions.
 Variables (K : fieldType) (n m p : nat) (S : system K n m p).
 
 Definition dynamics_at_infinity d (Z X : 'M[K]_(d, n)) (L : 'M[K]_(d, m)) (N : 'M[K]_d) := [/\ row_free Z, (Z :&: both S)%MS = 0,
-  (Z + both S :=: reached S n)%MS, (X - N *m Z <= both S)%MS & X *m sysA S + L *m sysF S = Z /\ X *m sysC S + L *m sysG S = 0].
+  (Z + both S :=: silent_from_rest S n)%MS, (X - N *m Z <= both S)%MS & X *m sysA S + L *m sysF S = Z /\ X *m sysC S + L *m sysG S = 0].
 
 End Definitions.
 
@@ -27,7 +27,7 @@ Notation Q := (row_base (both S)).
 
 Lemma dynamics_at_infinity_exists : exists d (Z X : 'M_(d, n)) L N, dynamics_at_infinity S Z X L N.
 Proof.
-pose V := reached S n; pose Z := row_base (V :\: R)%MS; have free : row_free Z := row_base_free _.
+pose V := silent_from_rest S n; pose Z := row_base (V :\: R)%MS; have free : row_free Z := row_base_free _.
 have sum : (Z + R :=: V)%MS.
   apply: eqmx_trans (adds_eqmx (eq_row_base _) (eqmx_refl _)) _; apply: eqmx_trans _ (addsmx_diff_cap_eq V R).
   by apply: adds_eqmx => //; apply/eqmx_sym/capmx_idPr/capmxSr.
@@ -45,7 +45,7 @@ exists _, Z, (\matrix_i (a i).1.1), (\matrix_i (a i).1.2), (\matrix_i (a i).2); 
 by split; apply/row_matrixP => i; rewrite linearD /= !row_mul !rowK ?row0; have [] := ha i.
 Qed.
 
-Lemma step_back x (w : 'rV_m) : (x <= reached S n)%MS -> ((x *m sysA S + w *m sysF S)%R <= zero_holding S)%MS ->
+Lemma step_back x (w : 'rV_m) : (x <= silent_from_rest S n)%MS -> ((x *m sysA S + w *m sysF S)%R <= zero_holding S)%MS ->
   x *m sysC S + w *m sysG S = 0 -> (x <= R)%MS.
 Proof.
 move=> xS nV e; rewrite sub_capmx xS andbT; apply: submx_trans (_ : (_ <= hold_step S (zero_holding S))%MS) _.
@@ -58,12 +58,12 @@ Variables (d : nat) (Z X : 'M[K]_(d, n)) (L : 'M[K]_(d, m)) (N : 'M[K]_d).
 Hypothesis dynamics : dynamics_at_infinity S Z X L N.
 Let E := col_mx (within S) (row_mx X L).
 
-Lemma X_reached : (X <= reached S n)%MS.
+Lemma X_from_rest : (X <= silent_from_rest S n)%MS.
 Proof.
 have [_ _ sum XN _] := dynamics; rewrite -sum -[X](subrK (N *m Z)) addrC; apply: addmx_sub_adds XN; exact: submxMl.
 Qed.
 
-Lemma back a x (w : 'rV_m) y : (x <= reached S n)%MS -> x *m sysC S + w *m sysG S = 0 -> x *m sysA S + w *m sysF S = a *m Z + y ->
+Lemma back a x (w : 'rV_m) y : (x <= silent_from_rest S n)%MS -> x *m sysC S + w *m sysG S = 0 -> x *m sysA S + w *m sysF S = a *m Z + y ->
   (y <= R)%MS -> ((x - a *m X)%R <= R)%MS /\ (row_mx (x - a *m X) (w - a *m L) <= within S)%MS.
 Proof.
 have [_ _ _ _ [next quiet]] := dynamics; move=> xS e f yR.
@@ -74,18 +74,18 @@ have quietE : (x - a *m X) *m sysC S + (w - a *m L) *m sysG S = 0.
 have yV : (y <= zero_holding S)%MS := submx_trans yR (capmxSl _ _).
 have inR : ((x - a *m X)%R <= R)%MS.
   apply: step_back quietE; last by rewrite nextE.
-  by apply: addmx_sub => //; rewrite eqmx_opp; apply: submx_trans (submxMl _ _) X_reached.
+  by apply: addmx_sub => //; rewrite eqmx_opp; apply: submx_trans (submxMl _ _) X_from_rest.
 by split=> //; apply/pairsR; split=> //; rewrite nextE.
 Qed.
 
 Lemma nilpotent_at_infinity : iter n (mulmx N) 1%:M = 0.
 Proof.
 have [free cap sum XN _] := dynamics.
-have vanish k (a : 'rV_d) y : (y <= R)%MS -> ((a *m Z + y)%R <= reached S k)%MS -> a *m iter k (mulmx N) 1%:M = 0.
+have vanish k (a : 'rV_d) y : (y <= R)%MS -> ((a *m Z + y)%R <= silent_from_rest S k)%MS -> a *m iter k (mulmx N) 1%:M = 0.
   elim: k a y => [|k IH] a y yR.
     rewrite submx0 addr_eq0 => /eqP aZ; rewrite mulmx1; apply/eqP; rewrite -(mulmx_free_eq0 _ free) -submx0 -cap sub_capmx submxMl.
     by rewrite aZ eqmx_opp.
-  rewrite [reached _ _]/= => /silent_stepP[x [w [xk e f]]].
+  rewrite [silent_from_rest _ _]/= => /silent_stepP[x [w [xk e f]]].
   have xS := submx_trans xk (increasing_constant (@silent_step_mono _ _ _ _ S) k).
   have [inR _] := back xS e f yR; rewrite /= mulmxA; apply: (IH _ (x - a *m X + a *m (X - N *m Z))).
     by apply: addmx_sub => //; apply: submx_trans (submxMl _ _) XN.
@@ -165,10 +165,10 @@ have in_0 (y : 'rV_(n + m)) : (y *m at0 (pencil_at_infinity S) <= row_mx (col_mx
   rewrite pencil_at_infinity_0 -[y]hsubmxK mul_row_block mulmx1 mulmx0 addr0 => /submxP[c]; rewrite mul_mx_row mulmx0.
   case/eq_row_mx; move: (lsubmx y) (rsubmx y) => x w xE f.
   have [_ _ sum _ _] := dynamics.
-  have xS : (x <= reached S n)%MS.
+  have xS : (x <= silent_from_rest S n)%MS.
     rewrite xE -[c]hsubmxK mul_row_col -sum addrC; apply: addmx_sub_adds; first exact: submxMl.
     by apply: submx_trans (submxMl _ _) _; rewrite eq_row_base.
-  have : ((x *m sysA S + w *m sysF S)%R <= Z + R)%MS by rewrite sum; apply: silent_in_reached.
+  have : ((x *m sysA S + w *m sysF S)%R <= Z + R)%MS by rewrite sum; apply: silent_step_from_rest.
   case/sub_addsmxP => -[a b] /= e; have [_ inE] := back xS f e (submxMl _ _).
   have -> : row_mx x w = row_mx (x - a *m X) (w - a *m L) + a *m row_mx X L by rewrite mul_mx_row add_row_mx !subrK.
   by rewrite -addsmxE addmx_sub_adds ?submxMl.
@@ -183,7 +183,7 @@ rewrite detE in divides *; move=> [g g0 [B0 [C0 e]]] k; split=> [/divides_minors
 by have := divides h f; rewrite dvdpZl //; apply: dvdp_trans; rewrite dvdp_exp2l.
 Qed.
 
-Lemma rank_dynamics_at_infinity : d = (\rank (reached S n) - \rank R)%N.
+Lemma rank_dynamics_at_infinity : d = (\rank (silent_from_rest S n) - \rank R)%N.
 Proof.
 have [/eqP free cap sum _ _] := dynamics; have := mxrank_sum_cap Z R; rewrite cap mxrank0 addn0 free sum => ->.
 by rewrite addnK.
@@ -191,7 +191,7 @@ Qed.
 
 End Dynamics.
 
-Theorem number_of_system_infinite_zeros : system_infinite_zeros S (\rank (reached S n) - \rank R).
+Theorem number_of_system_infinite_zeros : system_infinite_zeros S (\rank (silent_from_rest S n) - \rank R).
 Proof.
 have [d [Z [X [L [N dyn]]]]] := dynamics_at_infinity_exists; rewrite -(rank_dynamics_at_infinity dyn).
 exact: system_infinite_zeros_count dyn.

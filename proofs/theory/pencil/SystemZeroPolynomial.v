@@ -44,7 +44,7 @@ Proof.
 move=> XQ NQ; set D := 'X *: _ - _; have /row_freeP[Q' QQ'] := row_base_free R.
 have /fin_all_exists[j hj] : forall i, exists j, j *m D = delta_mx 0 i :> 'rV_(\rank R).
   move=> i; have : (row i Q <= R)%MS by rewrite -(eq_row_base R) row_sub.
-  rewrite {1}sub_capmx => /andP[yV yS]; have /reachedP[v [h e]] : (row i Q <= reached S n.+1)%MS.
+  rewrite {1}sub_capmx => /andP[yV yS]; have /silent_from_restP[v [h e]] : (row i Q <= silent_from_rest S n.+1)%MS.
     apply: submx_trans yS _; exact: (increasing (@silent_step_mono _ _ _ _ S) (leqnSn n)).
   rewrite -e in yV; have pairs := silent_way_pairs h yV.
   have /fin_all_exists[c hc] : forall k : 'I_n.+1, exists c, row_mx (state S 0 v k) (v k) = c *m within S.
@@ -75,7 +75,7 @@ have rows : const (pair_rows S Z L) *m pencil S =
   rewrite mulNmx -map_mxM -HQ mulmxBl mul_scalar_mx -map_mxM map_mxB opprB [RHS]addrC addrA subrK.
   by [].
 have solve (y : 'cV_(n + m)) : pair_rows S Z L *m y = 0 -> exists x, pencil S *m x = const y.
-  rewrite -[y]vsubmxK => Ey; apply: column_reached => x v /(silent_pair_sub dynamics)/submxP[c e].
+  rewrite -[y]vsubmxK => Ey; apply: column_attained => x v /(silent_pair_sub dynamics)/submxP[c e].
   by rewrite -mul_row_col e -mulmxA Ey mulmx0.
 have := gcd_of_highest_minors (E_free dynamics) (coordinates_free dynamics) rows JD solve.
 have -> : (\rank R + d + (n + m - (\rank (kermx (within_conditions S)) + d)) = n + gap S n)%N.
@@ -87,7 +87,7 @@ End Dynamics.
 
 (** The number of finite zeros. *)
 Theorem number_of_system_zeros : exists g, gcd_of_minors_of_order (n + gap S n) (pencil S) g /\
-  size g = (\rank (zero_holding S) - \rank (zero_holding S :&: reached S n)%MS).+1.
+  size g = (\rank (zero_holding S) - \rank (zero_holding S :&: silent_from_rest S n)%MS).+1.
 Proof.
 have [d [Z [L [M dynamics]]]] := quotient_dynamics_exists S; exists (char_poly M).
 by split; [apply: system_zero_polynomial dynamics | rewrite size_char_poly (rank_quotient_dynamics dynamics)].

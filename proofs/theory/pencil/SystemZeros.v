@@ -23,7 +23,7 @@ Section Definitions.
 Variables (K : fieldType) (n m p : nat) (S : system K n m p).
 
 (** The states of V that are reached silently from rest, and a silent motion on V, modulo them. *)
-Definition both : 'M[K]_n := (zero_holding S :&: reached S n)%MS.
+Definition both : 'M[K]_n := (zero_holding S :&: silent_from_rest S n)%MS.
 Definition quotient_dynamics d (Z : 'M[K]_(d, n)) (L : 'M[K]_(d, m)) (M : 'M[K]_d) := [/\ row_free Z,
   (Z :&: both)%MS = 0, (Z + both :=: zero_holding S)%MS,
   (Z *m sysA S + L *m sysF S - M *m Z <= both)%MS & Z *m sysC S + L *m sysG S = 0].
@@ -86,8 +86,8 @@ Proof. by rewrite -row_row_mx hsubmxK. Qed.
 Lemma XR_sub : (XR <= R)%MS.
 Proof. by apply/row_subP => i; have := row_sub i ER; rewrite -row_ER => /pairsR[]. Qed.
 
-Lemma silent_in_reached x (w : 'rV_m) : (x <= reached S n)%MS -> x *m sysC S + w *m sysG S = 0 ->
-  ((x *m sysA S + w *m sysF S)%R <= reached S n)%MS.
+Lemma silent_step_from_rest x (w : 'rV_m) : (x <= silent_from_rest S n)%MS -> x *m sysC S + w *m sysG S = 0 ->
+  ((x *m sysA S + w *m sysF S)%R <= silent_from_rest S n)%MS.
 Proof.
 move=> xS e; apply: submx_trans (increasing_constant (@silent_step_mono _ _ _ _ S) n.+1).
 by apply/silent_stepP; exists x, w.
@@ -96,7 +96,7 @@ Qed.
 Lemma NR_sub : (NR <= R)%MS.
 Proof.
 apply/row_subP => i; have := row_sub i ER; rewrite -row_ER => /pairsR[xR nV e].
-rewrite linearD /= !row_mul sub_capmx nV /=; apply: silent_in_reached e.
+rewrite linearD /= !row_mul sub_capmx nV /=; apply: silent_step_from_rest e.
 by apply: submx_trans xR (capmxSr _ _).
 Qed.
 
@@ -109,7 +109,7 @@ move=> h /zero_holdingP/silent_for_ever[u hu] k kN; rewrite sub_capmx; apply/and
   rewrite -(state_follow_before S 0 v u kN) -output_shift.
   have [kj|Nk] := ltnP (k + j) N; first by rewrite output_follow_before ?h.
   by rewrite -(subnKC Nk) output_follow_after hu.
-apply: submx_trans (increasing_constant (@silent_step_mono _ _ _ _ S) k); apply/reachedP; exists v; split=> // j jk.
+apply: submx_trans (increasing_constant (@silent_step_mono _ _ _ _ S) k); apply/silent_from_restP; exists v; split=> // j jk.
 by apply: h; apply: leq_trans kN.
 Qed.
 
@@ -128,7 +128,7 @@ rewrite submxE; set lambda := cokermx _.
 have eigen : map_mx f NR *m lambda = z *: (map_mx f XR *m lambda).
   by have := mulmx_coker (z *: map_mx f XR - map_mx f NR); rewrite -/lambda mulmxBl -scalemxAl => /eqP; rewrite subr_eq0 => /eqP ->.
 apply/eqP/row_matrixP => i; rewrite row0 row_mul -map_row.
-have := row_sub i R; move: (row i R) => y; rewrite {1}sub_capmx => /andP[yV /reachedP[v [h e]]].
+have := row_sub i R; move: (row i R) => y; rewrite {1}sub_capmx => /andP[yV /silent_from_restP[v [h e]]].
 rewrite -e in yV *; suff : forall k, (k <= n)%N -> map_mx f (state S 0 v k) *m lambda = 0 by apply.
 elim=> [|k IH] kn; first by rewrite map_mx0 mul0mx.
 have /submxP[c] := silent_way_pairs h yV kn.
@@ -182,13 +182,13 @@ by rewrite -!mulmxA -mulmxDr quiet mulmx0 subr0.
 Qed.
 
 (** The constant columns that E annihilates are columns of the pencil. *)
-Lemma kernel_reached (F : fieldType) (f : {rmorphism K -> F}) (z : F) :
+Lemma kernel_attained (F : fieldType) (f : {rmorphism K -> F}) (z : F) :
   (kermx (map_mx f E)^T <= (pencil_at S f z)^T)%MS.
 Proof.
 have /fin_all_exists[x hx] : forall i, exists x, pencil S *m x = const (row i (kermx E^T))^T.
   move=> i; have : E *m (row i (kermx E^T))^T = 0.
     by apply: trmx_inj; rewrite trmx_mul trmxK trmx0; apply/sub_kermxP/row_sub.
-  move: (row i _)^T => y; rewrite -{1}[y]vsubmxK => Ey; rewrite -[y]vsubmxK; apply: column_reached => x v /silent_pair_sub/submxP[c e].
+  move: (row i _)^T => y; rewrite -{1}[y]vsubmxK => Ey; rewrite -[y]vsubmxK; apply: column_attained => x v /silent_pair_sub/submxP[c e].
   by rewrite -mul_row_col e -mulmxA Ey mulmx0.
 rewrite map_trmx -map_kermx; apply/row_subP => i; rewrite -map_row; pose ev := horner_eval z \o map_poly f.
 apply/submxP; exists (map_mx ev (x i))^T; by rewrite -trmx_mul -pencil_eval -map_mxM hx eval_const -map_trmx trmxK.
@@ -255,7 +255,7 @@ Lemma pencil_rank_pairs (F : fieldType) (f : {rmorphism K -> F}) (z : F) :
   \rank (pencil_at S f z) = (\rank R + \rank (z%:M - map_mx f M)%R + (n + m - \rank E))%N.
 Proof.
 rewrite -mxrank_tr -(mxrank_mul_ker _ (map_mx f E)^T) -trmx_mul mxrank_tr rank_E_pencil; congr (_ + _)%N.
-have /eqmxP/eqmx_rank -> := capmx_idPr (kernel_reached f z).
+have /eqmxP/eqmx_rank -> := capmx_idPr (kernel_attained f z).
 by rewrite mxrank_ker mxrank_tr mxrank_map.
 Qed.
 

@@ -65,11 +65,11 @@ exact: leq_bigmax.
 Qed.
 
 Hypothesis flat : forall i a, mu a = 0%N -> (size (N i a) <= 1)%N.
-Hypothesis leads : \rank (\matrix_(i, a) (N i a)`_(mu a)) = k.
+Hypothesis regular : \rank (\matrix_(i, a) (N i a)`_(mu a)) = k.
 
 Theorem inverse_by_states : exists B, B *m col_mx X N = 1%:M.
 Proof.
-have [D DX] := dual_states; have /row_fullP[E EN] : row_full (\matrix_(i, a) (N i a)`_(mu a)) by rewrite /row_full leads.
+have [D DX] := dual_states; have /row_fullP[E EN] : row_full (\matrix_(i, a) (N i a)`_(mu a)) by rewrite /row_full regular.
 pose P : 'M[{poly K}]_k := diag_mx (\row_a (0 < mu a)%N%:R); pose Q : 'M[{poly K}]_k := diag_mx (\row_a (mu a == 0)%N%:R).
 have PQ : P + Q = 1%:M.
   apply/matrixP => a b; rewrite !mxE -mulrnDl; congr (_ *+ _); by case: (mu a) => [|l]; rewrite ?add0r ?addr0.

@@ -78,7 +78,7 @@ Variables (K : fieldType) (a b d : nat) (P : 'M[{poly K}]_(a, b)) (E : 'M[K]_(d,
 Notation const := (map_mx (@polyC K)).
 Hypotheses (freeE : row_free E) (freeZ : row_free Z) (rows : const E *m P = D *m const Z).
 
-Theorem det_reached : (forall y : 'cV[K]_a, E *m y = 0 -> exists x, P *m x = const y) ->
+Theorem det_attained : (forall y : 'cV[K]_a, E *m y = 0 -> exists x, P *m x = const y) ->
   divides_minors P (\det D) /\ exists2 c, c != 0 & exists C, \det (P *m C) = c *: \det D.
 Proof.
 have := subnKC (_ : (d <= a)%N); rewrite -{1}(eqP freeE) rank_leq_col => /(_ isT); move: (a - d)%N => e ade.
@@ -98,7 +98,7 @@ by rewrite scalerA mulVf ?scale1r // -unitfE -unitmxE.
 Qed.
 
 (** Or up to a factor without root in 0, when it is so in 0. *)
-Theorem det_reached_in_0 : (forall y : 'rV[K]_a, (y *m map_mx (coefp 0) P <= Z)%MS -> (y <= E)%MS) ->
+Theorem det_attained_in_0 : (forall y : 'rV[K]_a, (y *m map_mx (coefp 0) P <= Z)%MS -> (y <= E)%MS) ->
   divides_minors P (\det D) /\ exists2 g : {poly K}, ~~ root g 0 & exists C, \det (P *m C) = g * \det D.
 Proof.
 have := subnKC (_ : (d <= a)%N); rewrite -{1}(eqP freeE) rank_leq_col => /(_ isT); move: (a - d)%N => e ade.
@@ -130,20 +130,20 @@ End Reached.
 (** With the divisor reached, it is the greatest, and its roots are where the rank of P drops, in any extension of K. *)
 Section Roots.
 Variables (K : fieldType) (a b : nat) (P : 'M[{poly K}]_(a, b)) (g : {poly K}).
-Hypotheses (divides : divides_minors P g) (reached : exists2 c, c != 0 & exists C, \det (P *m C) = c *: g).
+Hypotheses (divides : divides_minors P g) (attained : exists2 c, c != 0 & exists C, \det (P *m C) = c *: g).
 
-Lemma reached_gcd : gcd_of_minors P g.
+Lemma attained_gcd : gcd_of_minors P g.
 Proof.
-split=> // h /divides_minors_det h_divides; case: reached => c c0 [C e].
+split=> // h /divides_minors_det h_divides; case: attained => c c0 [C e].
 by rewrite -(dvdpZr _ _ c0) -e.
 Qed.
 
-Lemma reached_rank (L : fieldType) (f : {rmorphism K -> L}) (z : L) :
+Lemma attained_rank (L : fieldType) (f : {rmorphism K -> L}) (z : L) :
   (\rank (map_mx (horner_eval z \o map_poly f) P) < a)%N = root (map_poly f g) z.
 Proof.
 set ev := (horner_eval z \o _); have ev_g (C : 'M_a) : ev (\det C) = \det (map_mx ev C) by rewrite det_map_mx.
 apply/idP/idP => [drop | /eqP rt].
-  case: reached => c c0 [C e]; have : ev (\det (P *m C)) = 0.
+  case: attained => c c0 [C e]; have : ev (\det (P *m C)) = 0.
     apply/eqP; rewrite ev_g; apply: contraTT drop => nz; rewrite -leqNgt.
     apply: leq_trans (mxrankM_maxl _ (map_mx ev C)); rewrite -map_mxM mxrank_unit //.
     by rewrite unitmxE unitfE.

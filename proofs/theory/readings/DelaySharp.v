@@ -52,6 +52,6 @@ Theorem delay_bounds_attained (K : fieldType) n : exists S : system K n.+1 1 1,
   [/\ \rank (col_mx (sysA S) (sysF S)) = n.+1, (1 + n.+1 - \rank (sysC S))%N = n.+1, inverts_from_any_state S n.+1
     & ~ inverts_from_any_state S n].
 Proof.
-exists (shown K n); have [reached missed] := shown_delay K n.
+exists (shown K n); have [inverted missed] := shown_delay K n.
 by split=> //; [apply: range_of_shown | rewrite outputs_of_shown addKn].
 Qed.

@@ -176,7 +176,7 @@ have [g [finite size_g]] := number_of_finite_zeros inv; have e := zeta_counts_ze
 exists S; split=> //.
 - by apply: observable_from_zeros => x /(_ 0%N isT); rewrite /output /= mulmx1 mulmx0 addr0.
 - by move=> y; exists 1%N, (fun=> y); rewrite /= mul0mx add0r mulmx1.
-have full : \rank (reached S 1) = 1%N.
+have full : \rank (silent_from_rest S 1) = 1%N.
   apply/eqP; rewrite -/(row_full _) -sub1mx; apply/row_subP => i; apply/(reachable_silently S); exists 1%N, (fun=> row i 1%:M).
   by split=> [[|//] _|]; [rewrite out | rewrite /= mul0mx add0r mulmx1].
 exists g => // s s1 short; have := (theorem_2 s inv).2 (leq_trans (lag_le_n S) s1).

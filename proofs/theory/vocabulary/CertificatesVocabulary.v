@@ -287,7 +287,8 @@ Definition check_no_delay n m p known (L : listed) x vs : bool := ambiguous n m 
 Definition flat p (us : seq vector) : vector := flatten [seq mkseq (entry u) p | u <- us].
 Definition basis_vector n i : vector := mkseq (fun j => if j == i then Zpos xH else Z0) n.
 Fixpoint powered (w e : Z) (vs : seq vector) : seq vector := if vs is v :: vs' then scale w v :: powered (Z.mul w e) e vs' else [::].
-Fixpoint reached (k : nat) (L : listed) (M : table) : table := if k is k'.+1 then M ++ reached k' L [seq times r (lA L) | r <- M] else [::].
+Fixpoint reachability_rows (k : nat) (L : listed) (M : table) : table :=
+  if k is k'.+1 then M ++ reachability_rows k' L [seq times r (lA L) | r <- M] else [::].
 Fixpoint visited (L : listed) (x : vector) (vs : seq vector) : seq vector :=
   if vs is v :: vs' then x :: visited L (add (times x (lA L)) (times v (lF L))) vs' else [:: x].
 Definition free_table n p s (L : listed) : table := [seq flat p (simulate L (basis_vector n i) (nseq s [::])) | i <- iota 0 n].
@@ -296,7 +297,7 @@ Definition free_table n p s (L : listed) : table := [seq flat p (simulate L (bas
 Definition check_observability n m p r l (L : listed) nulls combinations : bool :=
   well_formed n m p L && check_rank n (n * p) r l (free_table n p n L) nulls combinations.
 Definition check_reachability n m p r l (L : listed) nulls combinations : bool :=
-  well_formed n m p L && check_rank (n * m) n r l (reached n L (lF L)) nulls combinations.
+  well_formed n m p L && check_rank (n * m) n r l (reachability_rows n L (lF L)) nulls combinations.
 Definition check_hankel n m p N s r l (L : listed) (d : Z) x vs nulls combinations : bool :=
   [&& well_formed n m p L, d != Z0, (N + s == (size vs).+1)%N & check_rank N (s * p) r l
     [seq flat p (take s (drop i (simulate L x (powered (Zpos xH) (den L) vs)))) | i <- iota 0 N] nulls combinations].

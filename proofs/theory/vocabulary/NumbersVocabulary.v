@@ -157,12 +157,12 @@ Definition has_rank a b (r : nat) T (nulls combinations : led_by) : bool :=
     below the diagonal, or with a table that makes that of leading coefficients at the pivots diagonal. *)
 Notation kernel_rows := (seq (nat * table)).
 Notation words := (seq ((vector * table) * (nat * nat))).
-Definition leads_at (rows : kernel_rows) : table := [seq places_at [seq other.1 | other <- rows] (last [::] row.2) | row <- rows].
+Definition leading_at (rows : kernel_rows) : table := [seq places_at [seq other.1 | other <- rows] (last [::] row.2) | row <- rows].
 Definition ascend p (rows : kernel_rows) : bool :=
   all (fun row => (row.1 < p) && (0 < size row.2))%N rows && sorted leq [seq size row.2 | row <- rows].
-Definition leads_independent (rows : kernel_rows) (Q : option table) : bool :=
-  if Q is Some Q' then (size Q' == size rows) && is_diagonal [seq row_times q (leads_at rows) | q <- Q']
-  else is_triangular (leads_at rows).
+Definition leading_independent (rows : kernel_rows) (Q : option table) : bool :=
+  if Q is Some Q' then (size Q' == size rows) && is_diagonal [seq row_times q (leading_at rows) | q <- Q']
+  else is_triangular (leading_at rows).
 
 (** Words of s samples, each an initial state, faults, and the sample and output where it alone is not zero; that are as many
     as the kernel rows allow. *)
@@ -173,7 +173,7 @@ Definition allowed p (rows : kernel_rows) s : nat := sumn [seq p - count (fun ro
 
 (** What is said of the rows of one system at one window: they are all there are. *)
 Definition all_there_are n m p s L (rows : kernel_rows) (Q : option table) (ws : words) : bool :=
-  [&& sized n m p L, ascend p rows, leads_independent rows Q, all (fun row => annihilating L row.2) rows
+  [&& sized n m p L, ascend p rows, leading_independent rows Q, all (fun row => annihilating L row.2) rows
     & possible p s L ws && (size ws == allowed p rows s)].
 Definition within s (rows : kernel_rows) : bool := all (fun row => size row.2 <= s)%N rows.
 

@@ -222,9 +222,9 @@ rewrite -ey in limit.
 have start i : (t - q <= i < t + s)%N -> cov Q (u i) (x' 0%N) = 0 by rewrite /x' /= subrr cov_zero.
 rewrite (limit_seen_state model' uv start qt unit limit); apply/eqmxP; apply: eqmxMfull; apply: row_full_seen => w unseen.
 have zero := seen_unless_unreached qt unit excites (forgets _ B) unseen.
-have {}zero : reached S B n *m w = 0.
-  apply: unseen_by_reached => l _; have [lq|ql] := ltnP l q; first exact: zero.
+have {}zero : steered_space S B n *m w = 0.
+  apply: unseen_by_steered => l _; have [lq|ql] := ltnP l q; first exact: zero.
   by rewrite /times_power forgets ?mul0mx.
-have : row_full (reached S B n) by apply/controllable_reached.
+have : row_full (steered_space S B n) by apply/controllable_steered_space.
 by case/row_fullP => P PR; rewrite -[w]mul1mx -PR -mulmxA zero mulmx0.
 Qed.

@@ -106,8 +106,8 @@ have seen d : (d < q)%N -> times_power S Gamma d *m w = 0.
   rewrite cov_sub_left cov_mul_left unseen; last lia.
   rewrite cov_future_left big1 ?mulmx0 ?subrr // => i _; rewrite unseen ?mulmx0 //; have := ltn_ord i; lia.
 have {}seen d : times_power S Gamma d *m w = 0.
-  have zero := unseen_by_reached seen; apply/sub_kermxP; apply: submx_trans (_ : reached S Gamma q <= _)%MS; last exact/sub_kermxP.
-  rewrite (reached_more S Gamma nq) -(reached_more S Gamma (q := maxn n d.+1)) ?leq_maxl //.
+  have zero := unseen_by_steered seen; apply/sub_kermxP; apply: submx_trans (_ : steered_space S Gamma q <= _)%MS; last exact/sub_kermxP.
+  rewrite (steered_space_more S Gamma nq) -(steered_space_more S Gamma (q := maxn n d.+1)) ?leq_maxl //.
   have dq : (d < maxn n d.+1)%N by rewrite leq_max ltnSn orbT.
   by apply: (sumsmx_sup (Ordinal dq)) => //; rewrite genmxE.
 have past_xi d : forall l, (t - (n + a) <= l < H)%N -> (H <= l + d)%N -> cov Q (u l) xi = 0.
@@ -117,10 +117,10 @@ have past_xi d : forall l, (t - (n + a) <= l < H)%N -> (H <= l + d)%N -> cov Q (
   rewrite cov_add_left cov_mul_left (eb_xi l (t - l.+1)%N) ?seen ?add0r; last lia.
   rewrite cov_future_left big1 ?mulmx0 // => i _; rewrite IH ?mulmx0 //; rewrite /H; have := ltn_ord i; lia.
 have unreached := unseen_is_unreached (q := n + a) model before uncorrelated ar later (w := w) (c := c).
-have {unreached} zero : reached S B n *m w = 0.
-  apply: unseen_by_reached => l ln; apply: unreached; last by lia.
+have {unreached} zero : steered_space S B n *m w = 0.
+  apply: unseen_by_steered => l ln; apply: unreached; last by lia.
   by move=> i ti; apply: (past_xi H); rewrite ?leq_addl.
-have : row_full (reached S B n) by apply/controllable_reached.
+have : row_full (steered_space S B n) by apply/controllable_steered_space.
 by case/row_fullP => P PR; rewrite -[w]mul1mx -PR -mulmxA zero mulmx0.
 Qed.
 

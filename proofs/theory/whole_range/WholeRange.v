@@ -28,10 +28,10 @@ End Windows.
 Section Steered.
 Variables (K : fieldType) (n m p nu : nat) (S : system K n m p) (B : 'M[K]_(nu, n)).
 
-Lemma steered_reached z : steered S B z -> (z <= reached S B n)%MS.
-Proof. by case=> k [w <-]; rewrite reached_more //; apply: state_reached. Qed.
+Lemma steered_in_space z : steered S B z -> (z <= steered_space S B n)%MS.
+Proof. by case=> k [w <-]; rewrite steered_space_more //; apply: state_steered. Qed.
 
-Lemma unseen_by_reached q (w : 'cV_n) : (forall l, (l < q)%N -> times_power S B l *m w = 0) -> (reached S B q *m w = 0)%MS.
+Lemma unseen_by_steered q (w : 'cV_n) : (forall l, (l < q)%N -> times_power S B l *m w = 0) -> (steered_space S B q *m w = 0)%MS.
 Proof.
 move=> h; apply/sub_kermxP/sumsmx_subP=> l _; rewrite genmxE; apply/sub_kermxP; exact: h.
 Qed.
@@ -70,11 +70,11 @@ apply: (two_sided_past_inputs model qt) => i k /andP[_ it] /andP[_ kt]; exact: u
 Qed.
 
 (** Necessity, u of any colour: what the inputs share with the state they have through B, if so it is at time 0. *)
-Lemma cov_state_reached i k : (i < t + s)%N -> (k <= t + s)%N -> (cov Q (u i) (x 0%N) <= reached S B n)%MS ->
-  (cov Q (u i) (x k) <= reached S B n)%MS.
+Lemma cov_state_steered i k : (i < t + s)%N -> (k <= t + s)%N -> (cov Q (u i) (x 0%N) <= steered_space S B n)%MS ->
+  (cov Q (u i) (x k) <= steered_space S B n)%MS.
 Proof.
 move=> its; elim: k => // k IH kts h; have [-> _] := model k; rewrite !cov_add !cov_mul uncorrelated // mul0mx addr0.
-rewrite reached_more // in IH h *; apply: addmx_sub.
+rewrite steered_space_more // in IH h *; apply: addmx_sub.
   by apply: submx_trans (orbit_stays _ _); apply: submxMr; apply: IH => //; apply: ltnW.
 by apply: submx_trans (submxMl _ _) (orbit_contains _ _).
 Qed.
@@ -83,9 +83,9 @@ Theorem whole_range_needs_controllability L : (forall i j, (i < t + s)%N -> stee
   row_free (O S s) -> projected_limit Q Z Uf (future t s y) L -> (L == O S s)%MS -> forall z, steered S B z.
 Proof.
 move=> start obs /two_sided_product[M [[X [_ eM]] ->]]; rewrite product_right // => full.
-apply/(controllable_reached S B (leqnn n)); rewrite -sub1mx; apply: submx_trans (_ : M <= _)%MS; first by rewrite sub1mx.
-have reach i : (i < t + s)%N -> (cov Q (u i) (x t) <= reached S B n)%MS.
-  by move=> its; apply: cov_state_reached; rewrite ?leq_addr //; apply/row_subP=> j; apply: steered_reached; apply: start.
+apply/(controllable_steered_space S B (leqnn n)); rewrite -sub1mx; apply: submx_trans (_ : M <= _)%MS; first by rewrite sub1mx.
+have reach i : (i < t + s)%N -> (cov Q (u i) (x t) <= steered_space S B n)%MS.
+  by move=> its; apply: cov_state_steered; rewrite ?leq_addr //; apply/row_subP=> j; apply: steered_in_space; apply: start.
 rewrite eM; apply: addmx_sub; last rewrite eqmx_opp.
   rewrite /Z cov_future_left; apply: summx_sub => k _; apply: submx_trans (submxMl _ _) (reach _ _).
   by have := ltn_ord k; lia.
@@ -167,8 +167,8 @@ Theorem autoregressive_whole_range L : cov Q Uf Uf \in unitmx -> (n + a <= q)%N 
 Proof.
 move=> unit naq all /two_sided_product[M [limit ->]]; apply/eqmxP; apply: eqmxMfull; apply: row_full_seen => w Mw.
 have unreached := unseen_is_unreached (unseen_by_limit unit limit Mw).
-have {unreached} zero : reached S B (q - a) *m w = 0 by apply: unseen_by_reached.
-have : row_full (reached S B (q - a)) by apply/controllable_reached => //; lia.
+have {unreached} zero : steered_space S B (q - a) *m w = 0 by apply: unseen_by_steered.
+have : row_full (steered_space S B (q - a)) by apply/controllable_steered_space => //; lia.
 by case/row_fullP => P PR; rewrite -[w]mul1mx -PR -mulmxA zero mulmx0.
 Qed.
 

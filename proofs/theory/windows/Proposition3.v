@@ -28,7 +28,7 @@ Variables (K : fieldType) (n m p : nat) (S : system K n m p).
 Implicit Types (x : 'rV[K]_n) (w : 'rV[K]_m) (v : nat -> 'rV[K]_m).
 
 (** States on a silent trajectory from rest are in W_n: one may wait first. *)
-Lemma silent_from_rest v k : (forall j, output S 0 v j = 0) -> (state S 0 v k <= silent S n)%MS.
+Lemma state_when_silent v k : (forall j, output S 0 v j = 0) -> (state S 0 v k <= silent S n)%MS.
 Proof.
 move=> out0; apply/silentP/(@chain_decreasing _ _ _ _ S n (n + k)%N); first exact: leq_addr.
 exists 0, (follow n (fun=> 0) v); split=> [j _|]; last by rewrite state_follow_after state_zero.
@@ -40,14 +40,14 @@ Lemma first_fault_zero v : null S n = 0%N -> (forall k, output S 0 v k = 0) -> v
 Proof.
 move=> /null0P null0 out0.
 suff x1 : state S 0 v 1 = 0.
-  by have [_ //] := null0 _ (v 0%N) (silent_from_rest 0 out0) (out0 0%N) x1.
+  by have [_ //] := null0 _ (v 0%N) (state_when_silent 0 out0) (out0 0%N) x1.
 have [k [c [_]]] := one_depends (fun i => state S 0 v i.+1).
 elim: k c => [|k IH] c dep; first by rewrite dep big_ord0.
 pose x := state S 0 v k.+1 - \sum_(i < k.+1) c i *: state S 0 v i.
 pose w := v k.+1 - \sum_(i < k.+1) c i *: v i.
 have [|||x0 _] := null0 x w.
-- apply: addmx_sub; first exact: silent_from_rest.
-  by rewrite eqmx_opp; apply: summx_sub => i _; apply: scalemx_sub; apply: silent_from_rest.
+- apply: addmx_sub; first exact: state_when_silent.
+  by rewrite eqmx_opp; apply: summx_sub => i _; apply: scalemx_sub; apply: state_when_silent.
 - rewrite !mulmxBl !mulmx_suml addrACA -opprD -big_split /= [X in X - _](out0 k.+1) big1 ?subr0 // => i _.
   by rewrite -!scalemxAl -scalerDr [X in _ *: X](out0 i) scaler0.
 - rewrite !mulmxBl !mulmx_suml addrACA -opprD -big_split /= -[X in X - _]/(state S 0 v k.+2) dep.
