@@ -1,7 +1,9 @@
 (** White signals that are uncorrelated with each other at all lags, as many as one likes: the sequence of Rudin and Shapiro times sequences
     of one odd period that are orthogonal. Sums of products over the times before 2 N are made of such sums over those before N, the even
     and the odd times of a sequence of odd period being of that period again. Walsh functions in their place do not do: their period is a
-    power of two, and the sequence of Rudin and Shapiro has the same value at the times 4 t and 4 t + 1. *)
+    power of two, and the sequence of Rudin and Shapiro has the same value at the times 4 t and 4 t + 1.
+
+    periodic d M f == f has the period d, and no value is larger than M in size *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
 From faultspace Require Import MeansVocabulary ExampleVocabulary Means TimeAverages RudinShapiro Responses.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

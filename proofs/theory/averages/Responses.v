@@ -1,5 +1,8 @@
 (** Time averages of what a stable system makes of bounded signals. A state that is driven by a bounded signal w is bounded; and where w has
-    averages at all lags, and none beyond some lag, so have w and the state together. *)
+    averages at all lags, and none beyond some lag, so have w and the state together.
+
+       size_of x == the sum of the sizes of the entries of x
+    averages f a == entry by entry, f has the mean a *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum matrix
   mxalgebra zify.
 From faultspace Require Import MeansVocabulary Means TimeAverages.

@@ -1,5 +1,8 @@
 (** Faults of a concrete system over the rational numbers that cannot be seen, by a trajectory with zero output for ever; and the delay with
-    which the first fault is determined, by a left inverse and by a trajectory with zero output on one sample less. *)
+    which the first fault is determined, by a left inverse and by a trajectory with zero output on one sample less.
+
+    determines S known l == r(0), ..., r(l) determine v(0), from rest where the state is known, and from any state
+           fault_of vs j == v(j), the faults being told by the list vs *)
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg poly ssrnum
   ssrint rat matrix.

@@ -1,5 +1,11 @@
 (** Ranks of named matrices of a concrete system over the rational numbers: O_n, T_s, [O_s T_s], reachability, and of a recorded trajectory
-    the Hankel matrix of its outputs and the excitation [X V_s]. Each is computed on integers up to nonzero factors of rows and columns. *)
+    the Hankel matrix of its outputs and the excitation [X V_s]. Each is computed on integers up to nonzero factors of rows and columns.
+
+                    pulses m s i == the i-th unit fault signal of s samples, as a list
+            forced_table m p s L == T_s as a table: the outputs from rest of these signals
+    check_toeplitz, check_window == the checks of the ranks of T_s and of [O_s T_s], which no headline speaks of
+                      position j == which column of T_s entry j of a flat list of outputs or faults is
+                 behind_states j == the same behind n states *)
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice div fintype finfun bigop order zmodp ssralg finalg poly
   ssrnum ssrint rat matrix mxalgebra fraction.

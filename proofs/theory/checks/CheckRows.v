@@ -1,6 +1,9 @@
 (** The two checks on lists that everything rests on. Kernel rows ascend in degree, have independent leading coefficients (triangular at
     distinct pivots, say) and annihilate a system: the bound from above on the ranks of all windows. Words whose outputs are the identity at
-    some samples, modulo some l > 1: the bound from below on the rank of one window. *)
+    some samples, modulo some l > 1: the bound from below on the rank of one window.
+
+    meant_rows p rows == the kernel rows as lists of columns over the rational numbers
+      congruent l u v == the lists are as long as each other, and their entries equal modulo l *)
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path fintype finfun bigop order zmodp ssralg finalg poly
   ssrnum ssrint rat matrix mxalgebra.

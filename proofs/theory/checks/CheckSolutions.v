@@ -1,6 +1,9 @@
 (** The solutions (f, g) of problem (11) for a concrete system over the rational numbers, at one window or at all windows beyond the
     degrees of the kernel rows: where the rows are all there are, they are the common zeros of the demands of these rows, and a basis is
-    right once it vanishes on the demands and has as many vectors as their rank leaves. *)
+    right once it vanishes on the demands and has as many vectors as their rank leaves.
+
+          unit_fault k == the signal of one fault that is 1 at time 0, and 0 afterwards
+    check_first_column == the demands at time 0 accept the column (f, g), and some other one does not *)
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg poly ssrnum
   ssrint rat matrix mxalgebra fraction.

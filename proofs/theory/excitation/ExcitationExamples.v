@@ -105,7 +105,7 @@ have he M t : hankel M t r = hankel M t (output S 1%:M (geometric 1)).
 by rewrite !he.
 Qed.
 
-(** An pulse_at is persistently exciting of every order. *)
+(** A single pulse is persistently exciting of every order. *)
 Definition pulse_at (t k : nat) : 'rV[K]_1 := if k == t then 1%:M else 0.
 
 Lemma pulse_at_persistent t : persistently_exciting t.+1 t.+1 (pulse_at t).

@@ -1,7 +1,10 @@
 (** Persistency of excitation, after Willems, Rapisarda, Markovsky and De Moor [WRMM05]: if v is persistently exciting of order n + s,
     then the rows of [X V_s] span all pairs of a state that the faults and x(0) can reach and of s faults, controllable or not. Idea:
     what annihilates these rows annihilates them at later times, which by the monic relation of A gives an annihilator of n + s faults
-    alone; its coefficients are zero, the last ones first. *)
+    alone; its coefficients are zero, the last ones first.
+
+        orbit A M == the smallest subspace that holds the rows of M and that A leaves in place
+    excitable S x == the states that F and x reach *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
   zify.
 From faultspace Require Import Vocabulary Basics Places Reachable.

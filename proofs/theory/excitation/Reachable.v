@@ -1,6 +1,9 @@
 (** States restricted to a subspace U that A leaves in place and that contains the rows of F, as the states do that faults can reach. A
     monic polynomial of A, applied to sequences, moves every initial state into U; so what a fault pair (f, g) does from rest is
-    possible in S as soon as it is possible with initial states in U. *)
+    possible in S as soon as it is possible with initial states in U.
+
+    holds_reachable S U == U holds the rows of F, and A leaves it in place
+         restricted S U == S with initial states in U, in coordinates of U *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
   mxalgebra mxpoly.
 From faultspace Require Import Vocabulary Basics Gap Proposition3.

@@ -1,6 +1,9 @@
 (** A canonical form. For fixed (A, C) the solution space of problem (11) at any one window s >= n + 1 determines the behaviour, and is
     determined by it; left-invertibility is not needed. So whatever names a row space names the class of equivalent fault matrices:
-    MathComp's <<Z>>, or the reduced row echelon form, which is unique. *)
+    MathComp's <<Z>>, or the reduced row echelon form, which is unique.
+
+          defect S s z == what T_s(z) has outside of [O_s T_s]: nothing where z solves problem (11)
+    solution_space S s == the solutions of problem (11), as a row space *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Infinite SharpWindows Solutions.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,6 +1,8 @@
 (** The solutions of problem (11) in closed form, for every system and every window s >= n + 1: with U = W + V, W the limit of the states
     that can be reached silently, V the states that can hold the output at zero, they are the (f, g) with f = v F + x A + u and
-    g = v G + x C, x and u in U. Those with g = 0 are exactly U. Neither left-invertibility nor observability is needed. *)
+    g = v G + x C, x and u in U. Those with g = 0 are exactly U. Neither left-invertibility nor observability is needed.
+
+    closed_form S == the rows (F, G), (U A, U C) and (U, 0), U being the zero states *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Chain Problem11 Kick CanonicalForm Trajectory ZeroFeedthrough.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

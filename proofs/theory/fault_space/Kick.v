@@ -1,6 +1,11 @@
 (** Silent ways give solutions of problem (11). Let y be reached at time M with zero output. A kick adds y to the state and u to the
     faults, once: one more fault, with the columns y A + u F and y C + u G. A window of M + 1 samples cannot tell a kick from the trajectory
-    that has been on the silent way to y before. So the column solves problem (11) on M + 1 samples, though it need not on more. *)
+    that has been on the silent way to y before. So the column solves problem (11) on M + 1 samples, though it need not on more.
+
+        add_faults == S with the faults (F, G) beside its own
+    kick_f, kick_g == y A + u F and y C + u G
+              kick == S with (kick_f, kick_g) as its one fault
+          once w k == w at time 0, and 0 afterwards *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg matrix.
 From faultspace Require Import Vocabulary Basics Windows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,6 +1,8 @@
 (** Problem (11), exact. From s = n + 1 on, and as soon as s - 1 is past the last change of the gap, its solutions are the columns whose
     behaviour lies in that of S, with free initial states or from rest. At s = n it accepts wrong columns, and of the block columns of
-    T_s(z) the first alone is not enough: both on the system with A = 0, F = 1, C = [1 0], G = [0 1] in rows, over any field. *)
+    T_s(z) the first alone is not enough: both on the system with A = 0, F = 1, C = [1 0], G = [0 1] in rows, over any field.
+
+    delayed_fault == x(k+1) = v(k), r = (x, v) *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix.
 From faultspace Require Import Vocabulary Basics Windows Infinite Gap SharpWindows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

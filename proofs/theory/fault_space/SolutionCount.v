@@ -2,7 +2,10 @@
         n_z = n + (s + 1) gap (s - 1) - rank [O_s T_s] = n + p - sum of (eta + 1) over the left indices eta < s.
     Idea: the system with all solutions at s as faults has the same words of s samples, hence the same gaps before s. In it, a state u that
     solves the problem without feedthrough is reached silently at all times; W_(s-1) consists of these; and of the silent pairs (x, v)
-    just those with such an x can be brought to zero. So the balance of dimensions of one silent step says it all. *)
+    just those with such an x can be brought to zero. So the balance of dimensions of one silent step says it all.
+
+              saturated == S with the rows of Z, which span the solutions at s, as its faults
+    without_feedthrough == the f with which (f, 0) is a solution *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
   vector zify.
 From faultspace Require Import Vocabulary Basics Windows Chain Infinite Gap Balance Lag Problem11 Kick Solutions.

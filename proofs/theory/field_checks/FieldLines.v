@@ -1,6 +1,8 @@
 (** Lines of faults told by lists of numbers: the system with the faults a F + b F', a G + b G' is left-invertible for every (a : b) but
     (0, 0). As a factor other than 0 does not matter, (a : b) is (1 : t) or (0 : 1). For (1 : t) the pencil is seen at some points to have
-    full rank where a polynomial in t is not zero; the sum of these polynomials is 1, so at no t of any field are all of them zero. *)
+    full rank where a polynomial in t is not zero; the sum of these polynomials is 1, so at no t of any field are all of them zero.
+
+    value_in t u == what the polynomial u means, at t *)
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
   mxalgebra.

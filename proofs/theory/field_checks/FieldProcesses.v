@@ -1,5 +1,7 @@
 (** The process of an experiment told by lists of numbers: its signals as combinations of the states at time 0 and the noise from then on,
-    told by tables of their coefficients. *)
+    told by tables of their coefficients.
+
+    holds xs x s == xs are the tables of the states x and s at one time *)
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice div fintype finfun bigop finset zmodp ssralg finalg matrix.
 From faultspace Require Import Vocabulary NumbersVocabulary ExperimentsVocabulary NumberLists CheckMatrices FieldMatrices.

@@ -1,5 +1,9 @@
 (** Kernel rows and words of a system told by lists of numbers: where as many words are independent as the rows allow, the words of the
-    system are just what satisfies the rows. *)
+    system are just what satisfies the rows.
+
+     column_of k u == the list u as a column
+    columns_of p c == a list of such lists as a list of columns
+    rows_of p rows == the kernel rows as lists of columns *)
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
   mxalgebra.

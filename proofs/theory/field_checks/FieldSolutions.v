@@ -1,5 +1,7 @@
 (** The solutions (f, g) of problem (11) for a system told by lists of numbers, at one window or at all windows beyond the degrees of the
-    kernel rows: the common zeros of the conditions of these rows, of which a basis leaves no room for more. *)
+    kernel rows: the common zeros of the conditions of these rows, of which a basis leaves no room for more.
+
+    first_column_alone == the conditions at time 0 accept the column (f, g), and some other one does not *)
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
   mxalgebra zify.

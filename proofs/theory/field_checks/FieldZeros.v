@@ -1,5 +1,8 @@
 (** Diagonal forms of polynomial matrices, and the finite zeros of a system told by lists of numbers, by multipliers that make its pencil
-    diagonal. *)
+    diagonal.
+
+       in_fractions u == what the polynomial u means, as a rational function
+    poly_matrix a b M == a table of polynomials as a matrix *)
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly polydiv matrix
   mxalgebra fraction.

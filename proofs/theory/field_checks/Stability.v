@@ -1,5 +1,8 @@
 (** The recursion of Schur and Cohn: a polynomial that passes has all its roots inside the unit circle, and a matrix at which it vanishes is
-    stable. With a stable matrix Stein's equation X = M' X M has one solution. *)
+    stable. With a stable matrix Stein's equation X = M' X M has one solution.
+
+     up f z, down f z == the value at z of the polynomial f with its coefficients ascending, and descending
+    polynomial_at f M == f(M), the coefficients descending *)
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg poly ssrnum
   ssrint matrix mxalgebra mxpoly.

@@ -1,6 +1,8 @@
 (** Faults that lead a coloured input. The limit lies in the row space of O_s as soon as the future faults are combinations of the future
     inputs of the window, up to something uncorrelated with them and with the instruments. So it does for every u that is autoregressive of
-    order at most s, whatever the lead and with feedthrough: later inputs are combinations of s earlier ones and of innovations. *)
+    order at most s, whatever the lead and with feedthrough: later inputs are combinations of s earlier ones and of innovations.
+
+    hidden Q Z Uf w == w is a combination of Uf up to something that is uncorrelated with Z and Uf *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix zify.
 From faultspace Require Import Vocabulary Places Signals Consistency.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

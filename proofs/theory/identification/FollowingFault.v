@@ -1,6 +1,8 @@
 (** A fault that follows a white input, v(k) = u(k-1) Phi, given as w(k) Phi with w(k+1) = u(k). If the limit of PI-MOESP lies in the range
     of O_s all the same, then some d has d A = Phi F and d C = Phi G, and the fault acts as B + d would do without it: so B and D by output
-    error are B + d and D, and right only if the fault is never seen. *)
+    error are B + d and D, and right only if the fault is never seen.
+
+    first_response S B Phi s == the first s samples of the response to a pulse of u before the window *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop finset order zmodp ssralg finalg ssrnum
   matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Places Signals Leads OutputError Undetectable.

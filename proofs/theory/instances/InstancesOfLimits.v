@@ -2,10 +2,11 @@
     that there is something that meets them, in the words of the headline; premises.py makes that statement of the headline's, and tests
     compare the two. All systems are small, and none of these theorems is a headline.
 
-      plain          x(k+1) = u(k) + v(k), y = x: one state, one fault, one input, one output
-      white_pair     two white signals that are uncorrelated
-      led            the plain system with u white and v(k) = u(k+1), which second tells: v(k) = sum_j u(k+j) second j
-      unled          the plain system with u white, and v uncorrelated with it *)
+         plain == x(k+1) = u(k) + v(k), y = x: one state, one fault, one input, one output
+    white_pair == two white signals that are uncorrelated
+           led == the plain system with u white and v(k) = u(k+1)
+        second == what tells that fault: v(k) = sum_j u(k+j) second j
+         unled == the plain system with u white, and v uncorrelated with it *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary LimitsVocabulary Windows Signals Consistency Leads ConsistencyExamples.
 From faultspace Require Existence Controllable ColouredInputs OneSided.

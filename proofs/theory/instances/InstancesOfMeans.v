@@ -2,10 +2,10 @@
     x(k+1) = u(k) + v(k), y = x: time averages with white signals over the rational numbers, and averages over a
     period of 3 over every ordered field.
 
-      archimedean_field   an ordered field without infinite numbers
-      plain_stable        A = 0 is stable
-      quasi_part          a linear image of a quasi-stationary signal is quasi-stationary
-      averaged            the plain system with these white signals *)
+    archimedean_field == an ordered field without infinite numbers
+         plain_stable == A = 0 is stable
+           quasi_part == a linear image of a quasi-stationary signal is quasi-stationary
+             averaged == the plain system with these white signals *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary LimitsVocabulary MeansVocabulary ExampleVocabulary Means InstancesOfLimits.
 From faultspace Require MeanLimits TimeAverages WhiteSources NoisyMeans PeriodicSignals PeriodicMeans.

@@ -2,7 +2,7 @@
     system with noise of the state and of the output, x(k+1) = u(k) + v(k) + e(k), y(k) = x(k) + w(k), so that z(k+1) = u(k), all of u, v,
     e and w being white signals over the rational numbers.
 
-      noisy_averaged   time averages of these signals *)
+    noisy_averaged == time averages of these signals *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary LimitsVocabulary MeansVocabulary ExampleVocabulary Means InstancesOfLimits InstancesOfMeans.
 From faultspace Require MeanLimits TimeAverages WhiteSources NoisyMeans.

@@ -1,7 +1,7 @@
 (** Instances for headlines on data, pairs and zeros, as InstancesOfLimits.v has them for those on limits.
 
-      plain_lag      the plain system has lag 0
-      zero_at_zero   a state that gives no output and goes to 0 makes 0 a zero *)
+       plain_lag == the plain system has lag 0
+    zero_at_zero == a state that gives no output and goes to 0 makes 0 a zero *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary StructureVocabulary ExampleVocabulary Windows InstancesOfLimits.
 From faultspace Require TransferRank UnobservableZeros EchelonExists Readings FollowingExamples Theorem3 ExceptionalPolynomial Existence.

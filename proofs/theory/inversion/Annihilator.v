@@ -1,7 +1,12 @@
 (** Duality. A polynomial column c with p entries annihilates the words of length s > deg c when sum_k r(k) c_k = 0 for all of them.
     These c are the last parts of the polynomial columns (b; c) in the right kernel of the pencil; b is the costate, which runs backwards:
         b(k-1) = A b(k) - C c(k),     F b(k) = G c(k).
-    Words are exactly what all annihilators annihilate, so restricted behaviours may be compared by kernels of pencils. *)
+    Words are exactly what all annihilators annihilate, so restricted behaviours may be compared by kernels of pencils.
+
+        pairing s r c == r(0) c_0 + ... + r(s-1) c_(s-1)
+    annihilates S s c == that is zero for all words r of s samples
+             late b k == the coefficient k - 1 of b, and 0 for k = 0
+      costate S s c t == the costate t steps before the end *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg poly matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows PolynomialKernel.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

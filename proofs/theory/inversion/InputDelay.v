@@ -1,7 +1,9 @@
 (** How many samples tell the first fault where the initial state is not known, if any number does: the two chains of subspaces that bound
     it. V_k: the states from which k zero outputs are possible. The bound m + n - rank C comes from the dimension of V_1, the bound
     rank [A F] from the part of V_k in the range of [A F], on which alone V_(k+1) depends. Each chain loses a dimension a step until it
-    stops. *)
+    stops.
+
+    held_in_range S k == the states of V_k, which hold the output at zero for k samples, in the range of [A F] *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
   zify.
 From faultspace Require Import Vocabulary StructureVocabulary Basics Chain Trajectory.

@@ -1,7 +1,10 @@
 (** Left inversion needs at most n + 1 samples, and is full row rank n + m of the pencil over the rational functions. The circle is
     closed by polynomials: a polynomial row in the left kernel of the pencil, read from its leading coefficient on, is a silent
     trajectory from rest to rest; and n + 1 states of a silent trajectory from rest are linearly dependent, which gives a polynomial row
-    in the kernel. *)
+    in the kernel.
+
+       reversed d M k == coefficient d - k of M
+    horner_states f l == the polynomial f(0) q^l + ... + f(l) *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset
   generic_quotient perm zmodp countalg ssralg finalg poly polydiv matrix mxalgebra mxpoly fraction.
 From faultspace Require Import Vocabulary Basics PolynomialKernel.

@@ -1,6 +1,12 @@
 (** zeta = n - sum eta of Lag.v is the dimension of V + S, for every system. V: the states from which the output can be zero for ever (the
     largest output-nulling subspace). S: the states reachable from rest with zero output (the smallest input-containing subspace). Both are
-    counted in kernels of windows; of a silent fault from rest on 2 n samples, the state after n is any state of V and S. *)
+    counted in kernels of windows; of a silent fault from rest on 2 n samples, the state after n is any state of V and S.
+
+    silent_from_rest_at S k y == y is the state at time k after faults from rest with zero output at all times before
+         silent_from_rest S k == these states, as a row space; all of S* for k = n
+               state_at S s k == the state at time k from rest, linear in s faults side by side
+             first_faults s t == the first s of s + t faults
+             later_faults s t == t faults after s times without *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg matrix mxalgebra zify.
 From faultspace Require Import Vocabulary Basics Windows Chain Lag Trajectory.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,6 +1,9 @@
 (** When the output determines the faults. With a known initial state: iff left-invertible. With an unknown one: iff moreover every
     state from which some fault keeps the output zero keeps it zero without faults (no finite zeros but the unobservable modes); then n
-    + 1 samples give v(0). *)
+    + 1 samples give v(0).
+
+            faults_recovered S == from the same initial state no two faults give the same output
+    faults_recovered_blindly S == nor from any two initial states *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset
   generic_quotient perm zmodp ssralg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Chain.

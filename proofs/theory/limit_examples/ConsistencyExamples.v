@@ -1,7 +1,11 @@
 (** Where the exogeneity of u is one-sided only, cov (u(i), v(k)) = 0 for i <= k, consistency fails. With A = a, F = 1, B = -a, C = [1 0],
     G = [0 1] in rows, u white and v(k) = u(k+1), the stationary state is u itself, and the limit of PI-MOESP is zero although (A, B) is
     controllable and (A, C) observable; any field, a = 1/2 among it. With u = e(k) + e(k-1)/2, v = e(k+1), A = 1/2, B = 1 the limit has
-    rank 2 for n = 1: computed over rat. *)
+    rank 2 for n = 1: computed over rat.
+
+           dot a b == the covariance of two signals that are told by lists of coefficients
+    square a b c d == the matrix of two rows a, b and c, d
+              pick == the places of two samples, as two columns *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum ssrint
   rat matrix mxalgebra.
 From faultspace Require Import Vocabulary Places Signals Consistency Leads.

@@ -1,5 +1,8 @@
 (** The system of the integer tables of a listed one, over any field; modulo a prime its windows have no larger rank than those of the
-    system over the rational numbers. *)
+    system over the rational numbers.
+
+    over_field K n m p L == the system of the tables L over K, the denominator left out
+      table_matrix a b M == the table M as a matrix of integers *)
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum ssrint
   rat matrix mxalgebra.

@@ -1,6 +1,16 @@
 (** Kernel rows c_0, ..., c_mu, here columns, with r(j) c_0 + ... + r(j + mu) c_mu = 0 for all words of a system and all j. If those of
     degree at most k always have independent leading coefficients, then sample k adds at most p - #{rows of degree <= k} to the rank of a
-    window; and where the rank of the window reaches the sum of these, the words are exactly the solutions of the relations. *)
+    window; and where the rank of the window reaches the sum of these, the words are exactly the solutions of the relations.
+
+                relation c r == r(0) c_0 + ... + r(mu) c_mu
+          satisfies rows s r == that is zero for all rows c, wherever they fit into the s samples
+          annihilates rows S == it is zero for all rows and all outputs of S
+               active rows k == the rows of degree k at most
+       leading_active rows k == the matrix of their leading coefficients
+    independent_leading rows == these are independent, for every k
+                 room rows k == how many of p dimensions they leave
+                bound rows s == the sum of that over k < s: a bound of the rank of a window
+                 unstack M k == sample k of the stack M *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg matrix mxalgebra zify.
 From faultspace Require Import Vocabulary Basics Windows Stacks.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,6 +1,13 @@
 (** Systems over the rational numbers given by integers: A, F, C, G are lists of rows, to be divided by one common denominator. Trajectories
     and Horner's rule are computed on the integers, that is for the system (eA, eF, eC, eG), whose outputs are those of (A, F, C, G) times
-    e^(k+1) once v(k) is multiplied by e^k. *)
+    e^(k+1) once v(k) is multiplied by e^k.
+
+                       ratF == the field of the rational numbers
+    column k u, columns p c == a list as a column, and a list of lists as columns
+                 scaled e S == S with all its matrices times e
+         horner_state A C c == C c_0 + A (C c_1 + A ( ... ))
+         fault_action S c k == F X_(k+1) + G c_k, X_(k+1) being that of the rest of c
+                 integral L == the system that L means, times its denominator *)
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg poly ssrnum
   ssrint rat matrix fraction.

@@ -1,5 +1,7 @@
 (** Vectors and matrices as lists of integers, to compute with, and what they mean over a field of characteristic 0. A list stands for a
-    vector of any length, zero where the list ends; so addition needs no lengths. *)
+    vector of any length, zero where the list ends; so addition needs no lengths.
+
+    mat K a b M == the table M as a matrix over K *)
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg ssrint rat matrix.
 From mathcomp Require Import zify ssrZ.

@@ -1,6 +1,8 @@
 (** What positivity of a mean and stability give. A signal whose square has the mean zero is uncorrelated with every other; and a state that
     forgets is uncorrelated with whatever its inputs are uncorrelated with. Signals are finite combinations of samples of one that is
-    quasi-stationary, so that all covariances exist. *)
+    quasi-stationary, so that all covariances exist.
+
+    combination h f == f(t) is a combination of h(t), ..., h(t+H-1), the same for all t *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum matrix.
 From faultspace Require Import MeansVocabulary Means.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

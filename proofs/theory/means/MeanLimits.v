@@ -1,5 +1,6 @@
 (** What the theorems about covariances say of means: the limit of PI-MOESP lies in the range of O_s, B and D are right, an autoregressive
-    input shows all of the range; and with past outputs among the instruments the limit lies in the range where the faults are white. *)
+    input shows all of the range; and with past outputs among the instruments the limit lies in the range where the faults are white. Where
+    the covariances exist and s successive inputs excite, the limits of PI-MOESP and of PO-MOESP exist. *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
   zify.
 From faultspace Require Import Vocabulary Signals Consistency Regression LimitsVocabulary ShortPast MeansVocabulary Means.

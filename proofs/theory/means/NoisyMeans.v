@@ -1,6 +1,8 @@
 (** Noise of the states and of the outputs, of any colour and correlated with the faults or not, is a fault: what is said of faults that
     are uncorrelated with the input, and of past inputs, holds with it where the input is uncorrelated with the noise at all lags; with past
-    outputs, where faults and noise are uncorrelated with themselves and with each other at different times. *)
+    outputs, where faults and noise are uncorrelated with themselves and with each other at different times.
+
+    noisy S == S with the noise of the states and of the outputs as faults beside its own *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary Basics Windows LimitsVocabulary MeansVocabulary Means MeanLimits ExogenousMeans PastStates.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

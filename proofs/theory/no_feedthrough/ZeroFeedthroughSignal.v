@@ -1,7 +1,9 @@
 (** Without feedthrough, when do all equivalent pairs (F', 0) of m faults tell the same signal, up to a basis? Just when C F has full
     rank m and the output determines v without the initial state. If v0 F C = 0 for some v0, the fault v0 may act one step earlier for a
     part of the faults, F' = F + phi v0 F A: an equivalent pair with another signal. Conversely the rows of F' are then in those of F and
-    the unobservable states. *)
+    the unobservable states.
+
+    same_signal S F' == wherever (F', 0) and S give the same output, their faults are the same up to one basis *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
   mxalgebra fraction.
 From faultspace Require Import Vocabulary Basics Infinite Trajectory TransferRank NormalRank.

@@ -1,5 +1,7 @@
 (** The observable part of a system: the states modulo those that give no output. It makes the same outputs, whatever the faults, so what
-    is proved for observable (A, C) may be lifted. *)
+    is proved for observable (A, C) may be lifted.
+
+    observable_part_maps Pi Psi So == Pi forgets what cannot be seen, Psi is a right inverse, So is S after Pi *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
   mxalgebra fraction zify.
 From faultspace Require Import Vocabulary Basics Windows Infinite Trajectory Lag NormalRank GoodPairs PairZeros.

@@ -1,5 +1,7 @@
 (** zeros-of-pairs: every equivalent pair has the same zeta, but not the same number of finite zeros. The split is refuted by A = 0, C = 1,
-    F = 0, G = 1, over every field: one equivalent pair has no finite zero, another has one (ZeroAssignment.v). *)
+    F = 0, G = 1, over every field: one equivalent pair has no finite zero, another has one (ZeroAssignment.v).
+
+    one_zero == x(k+1) = 0, r = x + v: the zero 0 *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
   mxalgebra fraction.
 From faultspace Require Import Vocabulary Lag Trajectory SolutionCount ExceptionalPolynomial ZeroAssignment.

@@ -1,6 +1,9 @@
 (** When v is determined without the initial state, in terms of zeros with their multiplicities: the system is left-invertible, and its zero
     polynomial is the characteristic polynomial of the unobservable part. It is not enough that every finite zero is an unobservable mode:
-    in both examples the only zero is 0, twice, and the only unobservable mode is 0, once. *)
+    in both examples the only zero is 0, twice, and the only unobservable mode is 0, once.
+
+            twice_zero == x1(k+1) = 0, x2(k+1) = x2(k) + v(k), r = x2 + v
+    twice_zero_delayed == x1(k+1) = 0, x2(k+1) = 0, x3(k+1) = x2(k) + v(k), r = x3 *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly polydiv matrix
   mxalgebra mxpoly vector fraction.
 From faultspace Require Import Vocabulary Basics Trajectory TransferRank FiniteZeros InfiniteZeros Readings.

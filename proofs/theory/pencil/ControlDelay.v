@@ -1,6 +1,9 @@
 (** The delay of inversion with known initial state is long where faults take long to reach the states: after as many samples as the delay
     is, every state has been reached that can be reached silently from rest, as many dimensions as there are infinite zeros; and each
-    sample before the controllability index adds a dimension to the states that are reached at all. *)
+    sample before the controllability index adds a dimension to the states that are reached at all.
+
+    drive_step S U == the states that one sample leads to from U
+        driven S k == the states that faults lead to from rest in k samples *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
   zify.
 From faultspace Require Import Vocabulary StructureVocabulary Basics Stacks Chain SilentSubspaces Inversion InfiniteZeros.

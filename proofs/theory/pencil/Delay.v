@@ -1,6 +1,8 @@
 (** The delay of inversion with known initial state, told by ranks: T_(l+1) has m more than T_l just when l + 1 samples tell the first
     fault. #{orders of infinite zeros <= k} = rank T_(k+1) - rank T_k is how these orders are counted, so the delay is the largest of
-    them; in sum they are the infinite zeros of the pencil, as rank T_s = s m - d from s = n on. *)
+    them; in sum they are the infinite zeros of the pencil, as rank T_s = s m - d from s = n on.
+
+    first s == the first of s faults side by side *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
   mxalgebra zify.
 From faultspace Require Import Vocabulary Basics Windows Chain SilentSubspaces InfiniteZeros.

@@ -1,7 +1,10 @@
 (** Finite zeros of a left-invertible system, with their multiplicities. On the subspace V of the states that can be silent for ever, the
     silent fault is unique, and moves the state by a square matrix M, the zero dynamics. The characteristic polynomial of M is the greatest
     common divisor of the maximal minors of the pencil; its roots, in any extension of K, are where the pencil loses rank; so there are
-    dim V finite zeros. For a constant column that annihilates the silent pairs (x, v(0)) is a combination of columns of the pencil. *)
+    dim V finite zeros. For a constant column that annihilates the silent pairs (x, v(0)) is a combination of columns of the pencil.
+
+    zero_dynamics S Z L M == the rows of Z are a basis of V, and M moves them by the faults L, silently
+          pencil_at S f z == the pencil at a point z of an extension of K by f *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg poly matrix mxalgebra mxpoly.
 From faultspace Require Import Vocabulary Basics Windows Trajectory PolynomialKernel Annihilator Minors.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

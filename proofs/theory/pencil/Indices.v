@@ -1,6 +1,9 @@
 (** The left indices etas of Lag.v, defined by ranks of windows, are the left minimal (Kronecker) indices of the pencil: in this convention
     the minimal indices of its right kernel. For the polynomial columns (b; c) of degree < s in the kernel are given by c, and these c are
-    the annihilators of the words of s samples, a space of dimension s p - rank window s = sum of max(0, s - eta). *)
+    the annihilators of the words of s samples, a space of dimension s p - rank window s = sum of max(0, s - eta).
+
+       coefficients s c == the coefficients of c, one after the other
+    from_coefficients u == the column of polynomials with these *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
   mxalgebra zify.
 From faultspace Require Import Vocabulary Windows Gap Lag.

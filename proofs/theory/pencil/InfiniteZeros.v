@@ -1,7 +1,9 @@
 (** Infinite zeros of a left-invertible system, with their multiplicities, and zeta as the number of all zeros. The pencil at infinity is
     the pencil at 1/q with its first n columns times q; its zeros in 0 are the infinite zeros. On the subspace S of the states reached
     silently from rest the last step is unique, and its state before is given by a nilpotent matrix N: so q^dim S is the power of q in the
-    maximal minors. With the dim V finite zeros, zeta = n - sum eta counts all zeros of the pencil. *)
+    maximal minors. With the dim V finite zeros, zeta = n - sum eta counts all zeros of the pencil.
+
+    infinite_dynamics S Z L N == the rows of Z are a basis of S*, and a Z is reached from a N Z by the faults a L, silently *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg poly polydiv matrix mxalgebra
   mxpoly.
 From faultspace Require Import Vocabulary Basics Chain Minors FiniteZeros SilentSubspaces.

@@ -1,6 +1,8 @@
 (** Infinite zeros of every system, with their multiplicities: dim S - dim (V n S), as the power of q in the minors of order n + gap n of
     the pencil at infinity. The last silent step to a state of S comes from a state that is given, modulo V n S, by a nilpotent matrix N.
-    So, for every system, n = left indices + right indices + finite zeros + infinite zeros, and zeta is the sum of the last three. *)
+    So, for every system, n = left indices + right indices + finite zeros + infinite zeros, and zeta is the sum of the last three.
+
+    dynamics_at_infinity S Z X L N == the rows of Z are a basis of S* modulo R, reached silently from X by L, and X is N Z modulo R *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly polydiv matrix
   mxalgebra mxpoly vector zify.
 From faultspace Require Import Vocabulary Chain Indices SilentSubspaces RightIndices.

@@ -6,6 +6,7 @@
 
                        both S == R, the states of V (silent for ever) that are reached silently from rest
     quotient_dynamics S Z L M == the rows of Z are a basis of V modulo R, and M moves them by the faults L, silently, modulo R
+          within_conditions S == what vanishes on the pairs (x, v) with x in R that lead into V with zero output
                      within S == rows (x, v): a basis of the silent pairs that lead from R into R
               states_within S == their states x
                 next_within S == the states into which they lead

@@ -1,7 +1,10 @@
 (** Existence of a minimal basis (MinimalIndices.v), when the dimensions D s of the columns of degree < s in the kernel grow evenly from
     some s on. The columns of degree s are chosen after those of lower degree, such that their leading coefficients are independent of the
     earlier ones, and span with them the leading coefficients of all columns of degree s. D (s + 1) - D s is the number of columns of degree
-    at most s; so in the end none is added. *)
+    at most s; so in the end none is added.
+
+    basis_below M s Y == Y is a minimal basis of the columns of degree < s of the kernel of M
+      raise Y s alpha == the column of alpha_j q^(s - degree Y j) *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg poly matrix mxalgebra zify.
 From faultspace Require Import Vocabulary PolynomialKernel MinimalIndices.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

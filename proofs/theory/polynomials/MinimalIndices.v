@@ -1,6 +1,9 @@
 (** Minimal indices of a polynomial matrix M, after Forney (1975). Its right kernel has a basis of polynomial columns which generates all
     polynomial columns of the kernel and whose leading coefficients are independent (a minimal basis); their degrees are the indices. Here
-    they are determined by the dimensions, over K, of the polynomial columns of degree < s in the kernel: sum of max(0, s - e). *)
+    they are determined by the dimensions, over K, of the polynomial columns of degree < s in the kernel: sum of max(0, s - e).
+
+        kernel_basis M s B == the columns of B are a basis, over K, of the polynomial columns y of degree < s with M y = 0
+    kernel_dimension M s d == there is one of d columns *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg poly matrix mxalgebra zify.
 From faultspace Require Import Vocabulary PolynomialKernel.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

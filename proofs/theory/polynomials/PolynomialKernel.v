@@ -1,6 +1,11 @@
 (** Kernels of polynomial matrices over the field of fractions are spanned by polynomial vectors: multiply by a common denominator. So a
     rank over the fractions can be decided with polynomial vectors alone, whose coefficients are trajectories (Inversion.v) or
-    annihilators of outputs (Annihilator.v). *)
+    annihilators of outputs (Annihilator.v).
+
+                        tofrac == a polynomial as a rational function
+    numerator x, denominator x == of a fraction
+                     coefm k M == the matrix of the coefficients k of M
+                     polym s f == the polynomial matrix with the coefficients f(0), ..., f(s-1) *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop generic_quotient zmodp ssralg poly matrix
   mxalgebra fraction.
 From faultspace Require Import Vocabulary.

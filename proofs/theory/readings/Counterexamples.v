@@ -1,6 +1,12 @@
 (** theorem-3 cannot do with less, over any field: a P of full rank may give a pair that is not equivalent; two systems with different
     (A, C) and included behaviours may differ though both are left-invertible; and so may two with the same (A, C) and as many faults
-    when only the larger is left-invertible. *)
+    when only the larger is left-invertible.
+
+       delay_and_direct == x(k+1) = v1(k), r = (x, v2)
+            two_columns == the columns (1, 0, 0) and (0, 1, 0), as rows
+        forgets, shifts == two states without faults, r = (x1, 0, 0, ...) and r = (x1, x2, 0, ...)
+    nothing, everything == no state, r = 0 and r = v
+             unobserved == x(k+1) = x(k) + v(k), r = v *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Inversion.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

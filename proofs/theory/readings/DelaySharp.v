@@ -1,5 +1,7 @@
 (** The bounds on the delay with unknown initial state are attained for every number of states: a shift register that is fed by the fault
-    and shows its other end. *)
+    and shows its other end.
+
+    shown n == a shift register of n + 1 states, fed by the fault, that shows its other end *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset
   generic_quotient perm zmodp countalg ssralg finalg poly polydiv matrix mxalgebra mxpoly fraction.
 From faultspace Require Import Vocabulary StructureVocabulary Theorem1Sharp.

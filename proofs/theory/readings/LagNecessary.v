@@ -1,7 +1,10 @@
 (** One sample more than the lag is necessary, for every system with lag >= 1: there is another one, with one more state, as many faults, no
     larger lag and the same last gap, left-invertible if the given one is, that has the same words of lag samples, but more words of
     lag + 1. It is the given system with kicks (Kick.v) that a window of lag samples cannot tell, as strong as a functional of the previous
-    output says; the new state remembers that functional. *)
+    output says; the new state remembers that functional.
+
+             fed_back == S with one state more, to which the outputs are fed back through mu, and which acts as the fault (f, g)
+    strength mu z r k == that state: z first, then r(k-1) mu *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Chain Gap Lag Kick.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

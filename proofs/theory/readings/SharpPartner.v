@@ -3,7 +3,10 @@
     combination of the faults acts, so F' = F + phi y A and G' = G + phi y C: its words of M + 1 samples are the same, since the states W_t
     are the same up to t = M; it has other words of M + 2 samples; and it is left-invertible with the given system, since (y A, y C) has no
     part in the rows of the pencil. Its lag may have to be larger: of two outputs, one that delays the fault and one that the fault does not
-    reach, no partner keeps the lag. *)
+    reach, no partner keeps the lag.
+
+    partner S y phi == S with F + phi y A and G + phi y C in the place of F and G
+       beside_delay == x1(k+1) = x2(k), x2(k+1) = v(k), x3(k+1) = 0, r = (x1, x3) *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
   mxalgebra fraction.
 From faultspace Require Import Vocabulary Basics Windows Chain Gap Lag Kick LagNecessary PolynomialKernel Inversion Theorem3.

@@ -1,6 +1,8 @@
 (** theorem-1 needs its n + 1 samples for every n >= 1: a shift register of n states whose end is fed by the fault, or not. The first output
     shows the other end, the second one the fault itself, so both systems are left-invertible, and A, C, G are the same. They agree on n
-    samples; at time n the fed register shows the fault of time 0. *)
+    samples; at time n the fed register shows the fault of time 0.
+
+    register n c == a shift register of n + 1 states, fed by c v, that shows its other end, and v beside it *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset
   generic_quotient perm zmodp countalg ssralg finalg poly polydiv matrix mxpoly fraction.
 From faultspace Require Import Vocabulary Basics.

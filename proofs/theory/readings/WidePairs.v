@@ -1,5 +1,7 @@
 (** A pair of full rank that is not equivalent, in a system with more outputs than faults: the direct and the delayed fault of
-    Counterexamples.v beside an output that is always zero. *)
+    Counterexamples.v beside an output that is always zero.
+
+    wide S == S with one more output, zero *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
   mxalgebra fraction.
 From faultspace Require Import Vocabulary Windows Lag SmallSystems Counterexamples.

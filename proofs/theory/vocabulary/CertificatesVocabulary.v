@@ -3,7 +3,38 @@
 
     To know what is claimed it takes the first part alone: which system, which vector a list means. The checks are functions to true
     or false, and the headlines say what follows where they give true, whatever else their arguments, the witnesses, may be; that they are
-    the right checks is proved and need not be believed. They stand here because the statements name them. *)
+    the right checks is proved and need not be believed. They stand here because the statements name them.
+
+                                                       vector, table, entry == lists of integers, and their entries
+                                                number, vec, ratn, fraction == what these mean in a field, and over a denominator
+                                                    listed, meant, recorded == a system by its tables, what it means, and a recorded
+                                                                               vector
+                                              add, scale, dot, times, apply == arithmetic of vectors and tables
+                       null, shaped, well_formed, agree, all_agree, nonzero == zero, of the sizes told, equal or not
+                                     simulate, simulate_modulo, states, run == the outputs and the states of the integer system
+                                                          reduced, weighted == modulo l; a row times powers of the denominator
+                                         horner, acts, demands, annihilated == Horner's rule on a row, and whether it annihilates the
+                                                                               system
+                             joined, at_pivots, triangular, identity_modulo == vectors and tables at places
+                                         pivoted, led, combined, check_rank == the rank of a table
+                  euclid, inverse_modulo, inverts_modulo, invertible_modulo == inverses modulo l
+                                                      ready, is_determinant == determinants modulo l
+                     kernel_row, sampled_word, degrees, leading, admissible == kernel rows and words as lists
+                                   kernel, shorter, seen_at, words, ceiling == which rows and words a system has, and what they bound
+                          horner_modulo, demands_modulo, annihilated_modulo == the same modulo l
+                              states_of_rows, hints, pencil_table, is_minor == the states of rows, hints, and minors of the pencil
+                                          pencil_minor, rank_shown, minimal == rows that are seen to be a minimal basis
+                                          evidence, meets, follows, generic == what shows a lower bound, and what follows from rows
+                              check_window_ranks, check_window_ranks_modulo == the ranks of windows
+                            check_left_invertible, check_left_invertible_at == left-invertibility
+                         all_demands, reduced_echelon, solution_space, kept == the solutions of problem (11)
+                                               check_solutions, check_limit == at one window, and at all later ones
+                     check_inclusion, check_equality, check_window_equality == two behaviours, for ever and on one window
+                                                  pairing, check_difference == a word that a row of the other denies
+                                       check_not_left_invertible, ambiguous == faults that nobody sees
+                          gives_entry, inverse, check_delay, check_no_delay == an inverse with a delay, and that there is none
+        flat, basis_vector, powered, reachability_rows, visited, free_table == the rows of named matrices
+    check_observability, check_reachability, check_hankel, check_excitation == their ranks *)
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path fintype bigop zmodp ssralg ssrint rat matrix.
 From mathcomp Require Import zify ssrZ.

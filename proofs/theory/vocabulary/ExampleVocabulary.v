@@ -1,4 +1,10 @@
-(** The examples of HeadlinesMeans.v: the mean in which there are white signals, and the example of section V. *)
+(** The examples of HeadlinesMeans.v: the mean in which there are white signals, and the example of section V.
+
+                            example_v a == the example of section V, with F = (1, a, a^2)
+                         example_root a == F is an eigenvector of A, of the eigenvalue a
+                          block_sum f a == a is the sum of f over each late block, which are the times from i^2 to (i+1)^2
+    rudin_shapiro, rudin_shapiro_turned == the sequence of Rudin and Shapiro, and the same with every second sign turned
+                       white_source N t == N white signals made of it, that take turns *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice div fintype bigop zmodp ssralg matrix.
 From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

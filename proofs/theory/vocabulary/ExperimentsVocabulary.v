@@ -1,6 +1,23 @@
 (** What the headlines on certificates of stability and of limits (HeadlinesExperiments.v) speak of, beside the words of Vocabulary.v and of
     the first two parts of NumbersVocabulary.v. To know what is claimed it takes the first part alone; the checks are functions to true or
-    false, of which nobody needs to believe anything. *)
+    false, of which nobody needs to believe anything.
+
+                                                 schur_stable A == every eigenvalue of A lies inside the unit circle
+              experiment, driving, input_of, fault_of, noise_of == a system with a filter of white noise, and what that makes
+                          follow, output_of, stationary_process == how its states go on, its outputs, and a process of it
+                                            stable_experiment E == where there is no noise, everything dies out
+            squares, regression_rest, model_states, model_error == the two regressions for B and D
+                                 experiment_list, experiment_of == an experiment by its tables, and what they mean
+                   num, positive_in, integer_in, row_polynomial == numbers, integers among them, and x f(M)
+                                       inside_circle, is_stable == the recursion of Schur and Cohn, and the check of stability
+                table, basic, plus_tables, minus_table, columns == signals by their coefficients
+                                   beside, windowed, transposed == side by side, as windows, transposed
+                                       weighted_by, covariances == their covariances
+                           driving_table, next_states, channels == what an experiment does in one step
+              recorded_channels, joint_states, sized_experiment == what it does in several; tables of the sizes told
+                                                shown, is_limit == the check of the limit of identification
+    with_inputs, unit_table, orthogonal_to_units, is_regression == the check of MOESP's regression
+                                     errors_of, is_output_error == the check of output error *)
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg ssrnum matrix.
 From mathcomp Require Import zify ssrZ.

@@ -1,4 +1,10 @@
-(** The words of the statements about limits that no other file has. *)
+(** The words of the statements about limits that no other file has.
+
+                 steered S B z == inputs through B lead from rest to the state z
+                  similar S S' == the same (A, C) in another basis of the state
+    autoregressive Q a A u e H == u is autoregressive of order a, with the innovations e, before H
+            stationary Q x y H == the covariances of x and y before H depend on the difference of the times alone
+      seen_state Q u t q s A B == the covariance of q past inputs with the state, s future ones projected away *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg matrix.
 From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

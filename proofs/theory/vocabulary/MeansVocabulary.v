@@ -1,7 +1,27 @@
 (** Words for the statements about means of signals (HeadlinesMeans.v): consistency without measure theory. A signal is a sequence of row
     vectors, and a mean is any shift-invariant linear functional of sequences that is defined where it is asked for: quasi-stationary
     signals in Ljung's sense. The limit of time averages is one (time_average), and so is the average over a period (period_average).
-    Population covariances are its values. *)
+    Population covariances are its values.
+
+                             mean E == E f a, read: f has the mean a, is true of one a at most, linear, and the same where f starts
+                                       later
+                          later k x == x begun k samples later
+                 covariance E x y R == x(t)_i y(t)_j has the mean R_ij
+               quasi_stationary E x == x has covariances with itself at all lags
+                 uncorrelated E x y == at all lags, of both signs
+         knows_nothing_before E x y == x is uncorrelated with what y was before, and is now
+                 successive k s r t == r(t+k), ..., r(t+k+s-1) side by side
+                      excites E s u == s successive samples of u have a regular covariance
+                  limit E Z Uf Yf L == what PI-MOESP and PO-MOESP converge to
+                    white_noise E w == of unit covariance, and uncorrelated at different times
+     autoregressive_input E a A u e == u is autoregressive of order a, with the innovations e
+            order_of_spectrum E r u == the covariances of u satisfy a difference equation of order r
+    noisy_process S B D u v e w x y == the equations of the system with noise e of the states and w of the outputs
+                 disturbances v e w == the faults and the noise side by side
+       period_average, time_average == the average over a period, and the limit of the averages over the times before N
+                         positive E == no square has a negative mean
+                           stable A == some power of A is as small as one likes
+                      archimedean K == K has no infinite numbers *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg poly ssrnum matrix.
 From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -2,7 +2,39 @@
     lists of numbers of a kind that can be computed with, what these mean in a field, and the checks that the kernel of Rocq computes.
 
     To know what is claimed it takes the first two parts alone: which numbers there are and which system a list means. The checks are
-    functions to true or false, of which nobody needs to believe anything. *)
+    functions to true or false, of which nobody needs to believe anything.
+
+                                            arithmetic, means, residues == numbers to compute with, what they mean, integers modulo l
+    fraction_in, lowest, fraction_plus, fraction_mult, fraction_inverse == rational numbers as pairs of integers
+                                 rational_polynomial, value_at, trimmed == rational polynomials by their coefficients
+                 polynomial_plus, polynomial_multiple, polynomial_minus == their sums and multiples
+              times_root, polynomial_mult, polynomial_euclid, algebraic == the same in a root of f
+                                         at_place, vector_of, matrix_of == what lists of numbers mean
+                                          listing, system_of, signal_of == a system by its tables, what it means, and a signal
+      num, vector, table, sum, multiple, inner, row_times, times_column == arithmetic of vectors and tables
+           is_one, invertible, blank, formed, sized, same, seen_nonzero == one, zero, of the sizes told, equal or not
+                                                    outputs, trajectory == the outputs and the states from x under faults
+                                         costates, effect, annihilating == Horner's rule on a row, and whether it annihilates
+                    side_by_side, places_at, is_triangular, is_diagonal == vectors and tables at places
+                               led_by, square_at, combination, has_rank == the rank of a table
+            kernel_rows, words, leading_at, ascend, leading_independent == kernel rows and words as lists
+                   outputs_at, possible, allowed, all_there_are, within == which rows and words a system has, and what they bound
+                                   has_window_ranks, is_left_invertible == the ranks of windows, left-invertibility
+          conditions, in_echelon_form, solve_conditions, are_solutions,
+                                                   are_solutions_beyond == the solutions of problem (11)
+                                   is_included, are_equal, are_equal_on == two behaviours, for ever and on one window
+                                                         paired, differ == a word that a row of the other denies
+                                         is_not_left_invertible, unseen == faults that nobody sees
+                                gives, inverts, has_delay, has_no_delay == an inverse with a delay, and that there is none
+      in_line, unit_row, unit_pulse, reached_by, free_rows, forced_rows == the rows of named matrices
+            observability_has_rank, toeplitz_has_rank, window_has_rank,
+            reachability_has_rank, hankel_has_rank, excitation_has_rank == their ranks
+                                  convolved, polynomials, polynomial_of == polynomials as numbers, and what they mean
+               equal_tables, table_product, diagonal_table, pencil_rows == tables of polynomials
+      is_diagonalized, nonzero_places, has_finite_zeros, infinity_rows,
+                                          valuation, has_infinite_zeros == its diagonal form, and that at infinity
+              states_at, faults_along, constants, line_point, shown_at,
+                                                is_left_invertible_line == a line of faults, point by point *)
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype bigop zmodp ssralg poly matrix.
 From mathcomp Require Import zify ssrZ.

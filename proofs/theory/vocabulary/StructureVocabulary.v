@@ -1,4 +1,14 @@
-(** Words for the statements of HeadlinesStructure.v, beside those of Vocabulary.v. *)
+(** Words for the statements of HeadlinesStructure.v, beside those of Vocabulary.v.
+
+                                  shifted N r t == (N(q) r)(t) = r(t) N_0 + r(t+1) N_1 + ...
+                     inverts_from_any_state S l == from any state, l + 1 samples of zero output say that v(0) = 0
+         output_nulling, largest_output_nulling == subspaces of states that can keep the output zero, and V*
+    input_containing, smallest_input_containing == subspaces that no silent fault leaves, and S*
+                    unobservable_dynamics S N M == the rows of N are a basis of the states that give no output, M moves them
+                            reachability_of S k == [F, AF, ..., A^(k-1) F]
+                        controllability_index S == the least k from which on its rank is what it is for n
+                        unobservable_mode S f z == z is an eigenvalue of A that the output does not show
+                                  zero_of S f z == the pencil loses rank at z *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset
   generic_quotient perm zmodp countalg ssralg finalg poly polydiv matrix mxalgebra mxpoly fraction.
 From faultspace Require Import Vocabulary.

@@ -6,7 +6,39 @@
 
         x(k+1) = x(k) A + v(k) F,      r(k) = x(k) C + v(k) G.
 
-    Nothing is assumed: any field K, any n states, m faults, p outputs, zero included. README.md says what each word is in the paper. *)
+    Nothing is assumed: any field K, any n states, m faults, p outputs, zero included. README.md says what each word is in the paper.
+
+                          system, sysA, sysF, sysC, sysG == a system with n states, m faults and p outputs: A, F, C, G
+                                           state, output == x(k) and r(k) from an initial state under faults
+                                          word, behavior == the sequences that are possible for s samples, and for ever
+    left_invertible, inverts_with_delay, inverts_at_once == whether, and when, the output tells the faults
+        silently_reaches, holds_zero, fault_controllable == which states faults can reach, and hold silent
+                                  with_faults, faults_of == the same (A, C) with other faults: F and G, or the rows of [F G]
+                               same_words, same_behavior == two systems have the same words of s samples; the same behaviour
+                                   samples, stack, place == samples side by side, of one and of finitely many sequences; one sample
+                                                            among s
+                         pulse, O, T, window, observable == unit fault signals, O_s, T_s, [O_s T_s], and (A, C) observable
+                    solves, spans_solutions, data_solves == problem (11), all its solutions, and the same with data
+                                         reduced_echelon == in reduced row echelon form without zero rows
+                                     silent_step, silent == one step with zero output, and W_k
+             after_zeros, gap, lag, gap_drop, etas, zeta == how the rank of a window grows, the indices eta, and zeta = n - sum eta
+                    hold_step, zero_holding, zero_states == V_k, V* and V* + W_n
+                              pencil, pencil_at_infinity == P(q), and the same at 1/q
+                                over_fractions, transfer == polynomial matrices over the rational functions, and the transfer matrix
+                           divides_minors, gcd_of_minors == of the maximal minors: their greatest common divisor tells the finite zeros
+         divides_minors_of_order, gcd_of_minors_of_order == of the minors of an order
+                   infinite_zeros, system_infinite_zeros == how many zeros are infinite, of a left-invertible and of every system
+                   sizem, degree, leading, minimal_basis == one more than the degree of a matrix; degrees of columns; a minimal basis
+               hankel, excitation, persistently_exciting == R_s, [X V_s], and the excitation of data
+                                            reachability == [F, AF, ..., A^(n-1) F]
+                                              cov, white == covariances of random signals, and white ones
+                                         process, future == the equations of the system for random signals, and s samples from t on
+                                         projected_limit == what PI-MOESP and PO-MOESP converge to
+                      times_power, leads, seen_B, seen_D == M A^k; a fault that leads the input; B and D with what it adds
+                        impulse, prediction, mean_square == the impulse response, what a model predicts, and the mean square of its
+                                                            error
+                       leading_fault, variances, signals == what the example is made of
+       MovingAverage, Q, half, us, vs, xs, u, v, x, y, S == the example *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset
   generic_quotient perm zmodp ssralg poly polydiv rat matrix mxalgebra fraction.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

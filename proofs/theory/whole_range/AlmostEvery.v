@@ -1,6 +1,8 @@
 (** An input of any colour, fixed, and the state at time 0 uncorrelated with the inputs that the limit of PI-MOESP is made of: it has all of
     the range of O_s for almost every (A, B). On every line through a good (A, B) all but at most n t are good, since the state enters by
-    polynomials of degree t; and a chain of n delays behind the first input is good. *)
+    polynomials of degree t; and a chain of n delays behind the first input is good.
+
+    degree_le d M == the entries of M have degree d at most *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
   mxalgebra zify.
 From faultspace Require Import Vocabulary Windows Places Signals Consistency Leads ExceptionalPolynomial.

@@ -1,5 +1,10 @@
 (** Where the dimensions go in one silent step. Of all pairs (x, v) with x in W_k, those with zero output are mapped onto W_(k+1); what is
-    mapped to zero is counted by null k. So rank W_k + m = gap k + rank W_(k+1) + null k, and m = gap n + null n at the end of the chain. *)
+    mapped to zero is counted by null k. So rank W_k + m = gap k + rank W_(k+1) + null k, and m = gap n + null n at the end of the chain.
+
+           pairs S k == the pairs (x, v) with x in W_k
+    silent_pairs S k == those with zero output
+      null_pairs S k == those that also lead to the state 0
+            null S k == their dimension *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop ssralg matrix mxalgebra.
 From faultspace Require Import Vocabulary Chain Gap.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,6 +1,8 @@
 (** What is used everywhere: states and outputs are linear in (x, v), depend on the past only, and may be restarted at any time; so the
     words and the behavior form linear spaces that are closed under prefixes and suffixes. Equality of sequences is pointwise throughout,
-    so functional extensionality is never needed. *)
+    so functional extensionality is never needed.
+
+    follow j v w k == v up to time j, and w from then on *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop ssralg matrix.
 From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

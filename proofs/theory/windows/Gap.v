@@ -1,6 +1,8 @@
 (** One sample more. The rank of the window grows from s to s + 1 samples by gap s, the dimension of { x C + v G : x in W_s }: the possible
     values of r(s) after s zeros. The gap never grows, and is constant from s = n on. Whenever it no longer changes from M on, a sequence
-    is a sequence of words as soon as all its parts of M + 1 samples are words. *)
+    is a sequence of words as soon as all its parts of M + 1 samples are words.
+
+    only_at s d k == d at time s, and 0 at all others *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop ssralg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Chain.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,6 +1,10 @@
 (** Infinite time costs nothing: a sequence all of whose beginnings are words is in the behavior. The initial states that explain s samples
     shrink with s, but no more from s = n on, since their differences are the second chain of Chain.v. So an initial state that explains n
-    samples explains all, and faults can be picked sample by sample (with a generalised inverse, so that no choice is needed). *)
+    samples explains all, and faults can be picked sample by sample (with a generalised inverse, so that no choice is needed).
+
+     explains S s r x == some faults give r(0), ..., r(s-1) from x
+     faults_for S r x == n + 1 faults that do so for n + 1 samples, where there are any
+    first_fault S r x == the first of them *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop ssralg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Chain.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

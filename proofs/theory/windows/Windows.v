@@ -1,5 +1,7 @@
 (** The row space of window S s = [O_s T_s] is the set of words of length s. So inclusions and equalities of restricted behaviours, and
-    problem (11), may be decided by row spaces; and its kernel is the set of all (x, v(0), ..., v(s-1)) with zero output. *)
+    problem (11), may be decided by row spaces; and its kernel is the set of all (x, v(0), ..., v(s-1)) with zero output.
+
+    unsamples u k == sample k of the row u, and 0 from s on *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop ssralg matrix mxalgebra.
 From faultspace Require Import Vocabulary Basics.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
