@@ -110,7 +110,7 @@ def inlined(app: Any, tree: nodes.document, name: str) -> None:
 
 
 def whole(app: Any, tree: nodes.document, name: str) -> None:
-    """Make one element of a statement in a line of text, which Sphinx makes an element a word: the page of all statements had 50 000 of them."""
+    """Make one element of a long statement, of which Sphinx makes an element a word: the page of all statements had 50 000 of them."""
     for literal in list(tree.findall(nodes.literal)):
         if len(literal.astext().split()) > 12:
             text = f'<code class="docutils literal notranslate">{escape(literal.astext())}</code>'

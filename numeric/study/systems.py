@@ -125,8 +125,8 @@ def with_zeros(
             f"{counted(count, 'zero')} {'is' if count == 1 else 'are'} too many for {counted(n, 'state')}, "
             f"{counted(p, 'output')} and {counted(n_v, 'fault')} in these directions: ask for fewer zeros"
         )
-    # An orthonormal basis of the [F; G] alone. A normal draw of all entries is projected on their space, which makes a normal draw there that is the
-    # same with every processor; coefficients in the basis would not be, for rounding decides which basis LAPACK finds.
+    # An orthonormal basis of the [F; G] alone. A normal draw of all entries is projected on their space, which makes a normal draw there
+    # that is the same with every processor; coefficients in the basis would not be, for rounding decides which basis LAPACK finds.
     basis, sizes, right = np.linalg.svd(solutions[:height], full_matrices=False)
     kept = sizes > 1e-10 * sizes[0]
     draw = basis[:, kept].T @ rng.standard_normal(height)

@@ -32,7 +32,7 @@ def white_fault(bench: Workbench) -> Outcome:
 
 
 def past_inputs(bench: Workbench) -> Outcome:
-    """Where PO-MOESP fails under a fault uncorrelated with u, PI-MOESP is claimed to be right: some inputs of period 3 defeat both."""
+    """Where the limit of PO-MOESP leaves the range, PI-MOESP is claimed to be right: some inputs of period 3 defeat both."""
     others = [name for name in WITHOUT_RANK if name.endswith("coloured-fault") or name.startswith("rational")]
     return smallest_seasonal(lambda e: e.whole_range_expected and not e.past_outputs_within and not e.equal, taps=3, others=others)
 

@@ -234,8 +234,8 @@ def test_the_site_is_built_without_a_warning_and_fetches_nothing(built: Path) ->
         assert re.findall(r"<link[^>]*rel=\"(?:stylesheet|preload|preconnect)\"[^>]*href=\"(?:https?:)?//[^\"]*", html) == [], page
 
 
-# The time that axe takes grows with the square of what is on a page, so that a long page is looked at a part after the other: blocks of its text with
-# at most 2000 elements together (or one with more), all headings, and everything around the text.
+# The time that axe takes grows with the square of what is on a page, so that a long page is looked at a part after the other: blocks of its
+# text with at most 2000 elements together (or one with more), all headings, and everything around the text.
 PARTS = """() => {
     const blocks = [...document.querySelectorAll('article section > :not(section, h1, h2, h3, h4, h5, h6)')];
     let part = 0, size = 0;

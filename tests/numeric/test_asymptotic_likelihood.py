@@ -137,8 +137,8 @@ def test_a_flat_weight_does_not_attain_the_bound(monkeypatch: pytest.MonkeyPatch
 
 
 def test_without_the_ladder_descents_end_in_higher_valleys(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A system of the study, 40 dB between faults and noise: the one of the first 24 whose starts all lead to a minimum that is higher by more than a
-    hundredth. (In the seventh the ladder ends in one that is higher by 4 %.)"""
+    """A system of the study, 40 dB between faults and noise: the one of the first 24 whose starts all lead to a minimum that is higher by
+    more than a hundredth. (In the seventh the ladder ends in one that is higher by 4 %.)"""
     costs = []
     for rung in (weighted_reduction.RUNG, 1e40):
         monkeypatch.setattr(weighted_reduction, "RUNG", rung)

@@ -49,7 +49,8 @@ for n_zeros in range(4):
         for more in ({}, {"OPENBLAS_CORETYPE": kernel})
     ]
     assert len(told[0]) == 3 * (4 * 16 + 0 + 1 + 2 + 3)
-    np.testing.assert_allclose(*(np.array(numbers, dtype=float) for numbers in told), rtol=1e-6, atol=1e-8)
+    here, there = (np.array(numbers, dtype=float) for numbers in told)
+    np.testing.assert_allclose(here, there, rtol=1e-6, atol=1e-8)
 
 
 @pytest.mark.parametrize("n_zeros", range(4))

@@ -167,8 +167,8 @@ def cancels_what_is_close(A: Any, F: Any, C: Any, G: Any) -> ZeroStructure:
     return replace(found, finite_zeros=[z for z in found.finite_zeros if z not in near])
 
 
-# With six of OpenBLAS's kernels (OPENBLAS_CORETYPE = Prescott, Nehalem, Sandybridge, Haswell, Zen, SkylakeX) the reference errs by 2.3e-10 to 1.2e-9
-# and the mutant by 9.6e-9 to 9.7e-8; the limit is the geometric mean of the two in the middle.
+# With six of OpenBLAS's kernels (OPENBLAS_CORETYPE = Prescott, Nehalem, Sandybridge, Haswell, Zen, SkylakeX) the reference errs by 2.3e-10
+# to 1.2e-9 and the mutant by 9.6e-9 to 9.7e-8; the limit is the geometric mean of the two in the middle.
 @STRUCTURE.broken("nine zeros", has_structure(TEN, list(np.linspace(0.1, 0.9, 9)), [1], 3.4e-9))
 def goes_through_the_coefficients(A: Any, F: Any, C: Any, G: Any) -> ZeroStructure:
     """Zeros of one fault and one output are the roots of coefficients that a determinant at few points gives."""
