@@ -1,6 +1,6 @@
-(** Instances for the headlines on means of signals, as InstancesOfLimits.v has them for those on covariances. All are of the plain system,
-    x(k+1) = u(k) + v(k), y = x: time averages with white signals over the rational numbers, and averages over a
-    period of 3 over every ordered field.
+(** Instances for the headlines on means of signals, as InstancesOfLimits.v has them for those on covariances. Those of filtered inputs
+    apart they are of the plain system, x(k+1) = u(k) + v(k), y = x, or of it with noise: time averages with white signals over the
+    rational numbers, and averages over a period of 3 over every ordered field.
 
     archimedean_field == an ordered field without infinite numbers
          plain_stable == A = 0 is stable

@@ -29,7 +29,7 @@ Definition block_sum (K : ringType) (f : nat -> K) a :=
 Definition rudin_shapiro (K : ringType) t : K := (-1) ^+ \sum_(i < t) (odd (t %/ 2 ^ i) && odd (t %/ 2 ^ i.+1)).
 Definition rudin_shapiro_turned (K : ringType) t : K := (-1) ^+ t * rudin_shapiro K t.
 
-(** N signals that are the sequence of Rudin and Shapiro in turn: at each time one of them is 2N+1 times its value, and the others are zero.
-    The turns have the period (2N+1)^2. *)
+(** N signals that are the sequence of Rudin and Shapiro in turn: signal i is 2N+1 times its value at the times i modulo (2N+1)^2, and
+    zero at all others, so that at most one of them is not zero. *)
 Definition white_source (K : ringType) N t : 'rV[K]_N :=
   \row_i (if (t %% (N.*2.+1 * N.*2.+1))%N == i then N.*2.+1%:R * rudin_shapiro K t else 0).
