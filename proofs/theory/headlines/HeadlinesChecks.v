@@ -81,7 +81,8 @@ Theorem check_not_left_invertible (n m p : nat) L xs vs :
   check_not_left_invertible n m p L xs vs -> ~ left_invertible (meant n m p L).
 Proof. exact: CheckInversion.not_left_invertible_sound. Qed.
 
-(** The first fault from the first l + 1 samples, the initial state known (that is, zero) or not; and from no fewer, or from no number. *)
+(** The first fault from the first l + 1 samples, the initial state known (that is, zero) or not; and from no fewer, or from no number
+    up to n. *)
 Theorem check_delay (n m p : nat) L (known : bool) l rows x vs : check_delay n m p known l L rows x vs ->
   let determined l := forall x v, (known -> x = 0) -> (forall k, (k <= l)%N -> output (meant n m p L) x v k = 0) -> v 0%N = 0 in
   [/\ (l <= n)%N, determined l & forall j, (j < l)%N -> ~ determined j].

@@ -39,7 +39,8 @@ Theorem field_not_left_invertible (R : arithmetic) (K : fieldType) (value : nume
   is_not_left_invertible n m p L xs vs -> ~ left_invertible (system_of value n m p L).
 Proof. move=> meaning; exact: (FieldInversion.is_not_left_invertible_sound meaning). Qed.
 
-(** The first fault from the first l + 1 samples, the initial state known (that is, zero) or not; and from no fewer, or from no number. *)
+(** The first fault from the first l + 1 samples, the initial state known (that is, zero) or not; and from no fewer, or from no number
+    up to n. *)
 Theorem field_delay (R : arithmetic) (K : fieldType) (value : numeral R -> K) n m p (known : bool) l L rows x vs : means value ->
   has_delay n m p known l L rows x vs ->
   let determined l := forall x v, (known -> x = 0) -> (forall k, (k <= l)%N -> output (system_of value n m p L) x v k = 0) -> v 0%N = 0 in

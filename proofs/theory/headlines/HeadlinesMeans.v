@@ -261,7 +261,7 @@ exact: (FollowingMeans.mean_not_both isE pos model wu st white driven quasi).
 Qed.
 
 (** For every stable system and every Phi there are signals as the first two lines of these premises have them, with limits for all q and s:
-    of each of them not both are right, unless the fault is never seen. *)
+    of each of them not both are right, unless the fault is never seen, where q >= 1 and (A, C) is observable on s - 1 samples, s >= 1. *)
 Theorem mean_settle_1_signals_exist (K : realFieldType) n m p nu (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
     (Phi : 'M_(nu, m)) : archimedean K -> stable (sysA S) ->
   let E := @time_average K in let u := @white_source K nu in let w t := if t is t'.+1 then u t' else 0 in

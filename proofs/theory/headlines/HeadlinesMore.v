@@ -151,7 +151,8 @@ Theorem window_ranks_solutions (K : fieldType) n m p (S : system K n m p) s k (Z
   (\rank Z + \sum_(e <- etas S | (e <= s)%N) e.+1 = n + p)%N.
 Proof. exact: SolutionCount.solution_count. Qed.
 
-(** limit: n_z = r + zeta + sum eps, at s + 1 = lag + 1 samples and not before; where the system is left-invertible, problem_11_dimension *)
+(** limit: n_z = r + n_f + n_inf + sum eps, which is r + zeta, at s + 1 = lag + 1 samples and not before; where the system is
+    left-invertible, problem_11_dimension *)
 Theorem window_ranks_limit (K : fieldType) n m p (S : system K n m p) s k (Z : 'M_(k, n + p)) c (Y : 'M_(n + m, c)) g d :
   spans_solutions S s.+1 Z -> minimal_basis (pencil S)^T Y ->
   gcd_of_minors_of_order (n + \rank (transfer S)) (pencil S) g -> system_infinite_zeros S d ->
