@@ -61,9 +61,9 @@ CLOSED = "Closed under the global context"
 PLACES = """Locate Library mathcomp.ssreflect.all_ssreflect.
 Locate Library mathcomp.algebra.all_algebra.
 """
-# The last line is the notation of MathComp 1, for which the theory is written.
+# The last line holds in MathComp 1 and in MathComp 2; the theory is written for both.
 PROBE = """From mathcomp Require Import all_ssreflect all_algebra zify ssrZ.
-Check [fieldType of rat].
+Check [the fieldType of rat : Type].
 """
 
 
@@ -124,7 +124,7 @@ def _probed(compiler: Rocq, probe: str) -> str:
         try:
             return _coqc(Path(scratch) / "Probe.v", OPTIONS, FILE_SECONDS)
         except BrokenTheory as error:
-            raise NoRocq(f"Rocq {compiler.version} does not find MathComp 1 with its zify ({error}); {INSTALL}") from None
+            raise NoRocq(f"Rocq {compiler.version} does not find MathComp with its zify ({error}); {INSTALL}") from None
 
 
 def content_hash(texts: dict[str, str]) -> str:

@@ -32,7 +32,7 @@ Json = Any
 COMPLEX = "forall (C : numClosedFieldType) (embed : {rmorphism K -> C}),"
 ORDERED = "(K : fieldType)", "(K : realFieldType)"  # least squares are told by an order
 SHOWN = "seq (nat * seq V) * seq (nat * seq V)"
-INTO_COMPLEX = "(fun r => embed (value r) : [fieldType of C])"
+INTO_COMPLEX = "(fun r => embed (value r) : C)"
 
 
 def schur_stable(s: Json, w: Json) -> Terms:

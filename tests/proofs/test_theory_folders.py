@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Mapping
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -82,9 +83,21 @@ def test_a_new_file_is_found_where_it_lies(tmp_path: Path) -> None:
 
 
 def used(theory: Path, name: str) -> set[str]:
-    """Returns the files of ours whose names coqc met in this one, by the record that it keeps."""
+    """Returns the files of ours whose names coqc met in this one, by the record that it keeps. Where MathComp has a lemma of `versions`,
+    its own is met."""
     lines = (theory / name).with_suffix(".glob").read_text("utf-8")
-    return {f"{module}.v" for module in re.findall(r"^R\d+:\d+ faultspace\.(\w+) \S+ \S+ (?!lib$)", lines, re.MULTILINE)} - {name}
+    met = {*re.findall(r"^R\d+:\d+ mathcomp\.\S+ \S+ (\w+) ", lines, re.MULTILINE)}
+    own = {f"{module}.v" for module in re.findall(r"^R\d+:\d+ faultspace\.(\w+) \S+ \S+ (?!lib$)", lines, re.MULTILINE)}
+    return (own | {file for file, names in named_by_versions().items() if names & met}) - {name}
+
+
+@cache
+def named_by_versions() -> dict[str, set[str]]:
+    """Returns the files of the folder `versions`, each with the lemmas that it has."""
+    texts = sources()
+    return {
+        name: {*re.findall(r"^Lemma (\w+)", texts[name], re.MULTILINE)} for name, path in paths().items() if path.startswith("versions/")
+    }
 
 
 @pytest.mark.timeout(900)

@@ -3,7 +3,7 @@
     measured; and for the input and the system of PartOfTheRange.v, where past inputs alone do not show all of the range either. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
 From faultspace Require Import Vocabulary LimitsVocabulary MeansVocabulary ExampleVocabulary Means MeanLimits LongPast.
-From faultspace Require Import TimeAverages RudinShapiro Responses WhiteMeans PastOutputMeans PartOfTheRange.
+From faultspace Require Import TimeAverages RudinShapiro Responses WhiteMeans PastOutputMeans PartOfTheRange OrderNames.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -47,7 +47,7 @@ Proof. by have := vv 0 2; rewrite /= !addr0 add0r; apply: (covariance_ext isE) =
 Let f_size t : size_of (f t) <= 1.
 Proof. by rewrite /size_of big_ord1 mxE mulr1n /rudin_shapiro_turned normrM normr_sign shapiro_norm mulr1. Qed.
 Let v_bounded t : size_of (v t) <= 1 + 1.
-Proof. by apply: le_trans (size_add _ _) _; apply: ler_add. Qed.
+Proof. by apply: le_trans (size_add _ _) _; apply: lerD. Qed.
 
 Let v_uncorrelated (e : nat -> 'rV[K]_1) : uncorrelated E e f -> uncorrelated E e v.
 Proof.
@@ -99,7 +99,7 @@ have w_short l : (3 <= l)%N -> covariance E w (later l w) 0.
 have w_bounded t : size_of (w t) <= 1 + (1 + 1).
   have -> : size_of (w t) = size_of (u t) + size_of (v t).
     rewrite /size_of big_split_ord; congr (_ + _); apply: eq_bigr => i _; by rewrite ?row_mxEl ?row_mxEr.
-  by apply: ler_add => //; rewrite /size_of big_ord1 mxE mulr1n shapiro_norm.
+  by apply: lerD => //; rewrite /size_of big_ord1 mxE mulr1n shapiro_norm.
 have quasi := responses_quasi arch st step w_bounded w_quasi w_short.
 split=> // q s q0 s1; split; first by apply: (past_outputs_limit_exists _ isE model quasi); apply: white_excites.
 by move=> L; apply: (leaves_range model st uv quasi).

@@ -1,7 +1,7 @@
 (** Signals for a fault that follows a white input: those of any stable system. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
 From faultspace Require Import Vocabulary MeansVocabulary ExampleVocabulary Means Forgetting.
-From faultspace Require Import TimeAverages Responses WhiteMeans OddPeriods MeanLimits.
+From faultspace Require Import TimeAverages Responses WhiteMeans OddPeriods MeanLimits OrderNames.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -59,7 +59,7 @@ Let g_bounded t : size_of (g t) <= b + b.
 Proof.
 have -> : size_of (g t) = size_of (u t) + size_of (w t).
   rewrite /size_of big_split_ord; congr (_ + _); apply: eq_bigr => i _; by rewrite ?row_mxEl ?row_mxEr.
-apply: ler_add; first exact: source_bounded.
+apply: lerD; first exact: source_bounded.
 case: t => [|t]; last exact: source_bounded.
 have b0 : 0 <= b by apply: mulrn_wge0; apply: ler0n.
 by rewrite /size_of big1 // => i _; rewrite mxE normr0.

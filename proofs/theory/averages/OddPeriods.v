@@ -5,7 +5,7 @@
 
     periodic d M f == f has the period d, and no value is larger than M in size *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import MeansVocabulary ExampleVocabulary Means TimeAverages RudinShapiro Responses.
+From faultspace Require Import MeansVocabulary ExampleVocabulary Means TimeAverages RudinShapiro Responses OrderNames.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -57,8 +57,8 @@ Proof. by case=> _ le; rewrite /c !normrM !(shapiro_norm K) normr_sign !mulr1. Q
 
 Lemma sum_half M f b l N : periodic M f -> `|sum_of f b l N| <= `|sum_of f b l N./2.*2| + M%:R.
 Proof.
-move=> per; rewrite -{1}(odd_double_half N) addnC; case: (odd N); rewrite ?addn0 ?ler_addl ?ler0n // addn1.
-rewrite {1}/sum_of big_ord_recr /=; apply: le_trans (ler_norm_add _ _) _; rewrite ler_add2l; exact: term_bound.
+move=> per; rewrite -{1}(odd_double_half N) addnC; case: (odd N); rewrite ?addn0 ?lerDl ?ler0n // addn1.
+rewrite {1}/sum_of big_ord_recr /=; apply: le_trans (ler_normD _ _) _; rewrite lerD2l; exact: term_bound.
 Qed.
 
 Lemma by_halves M f b l C : periodic M f -> (forall k N, (N < 2 ^ k)%N -> `|sum_of f b l N.*2| <= (C * M * k)%:R + (2 * d * M)%:R) ->
@@ -66,7 +66,7 @@ Lemma by_halves M f b l C : periodic M f -> (forall k N, (N < 2 ^ k)%N -> `|sum_
 Proof.
 move=> per h [[|//] _|k N Nk]; first by rewrite /sum_of big_ord0 normr0 muln0.
 have {}Nk : (N./2 < 2 ^ k)%N by move: Nk; rewrite expnS; lia.
-apply: le_trans (sum_half _ _ _ per) _; apply: le_trans (ler_add (h k _ Nk) (lexx _)) _.
+apply: le_trans (sum_half _ _ _ per) _; apply: le_trans (lerD (h k _ Nk) (lexx _)) _.
 rewrite -!natrD ler_nat; have le : (0 <= M * k * (2 * d + 1))%N by []; nia.
 Qed.
 
@@ -96,8 +96,8 @@ elim: k f N => [|k IH] f N per Nk.
   by have -> : N = 0%N by [lia]; rewrite /sum_of big_ord0 normr0 muln0.
 have {}Nk : (N./2 < 2 ^ k)%N by move: Nk; rewrite expnS; lia.
 apply: le_trans (sum_half _ _ _ per) _; rewrite (sum_odd f true 0) expr0 mul1r expr1 mulN1r.
-apply: le_trans (ler_add (ler_norm_sub _ _) (lexx _)) _.
-apply: le_trans (ler_add (ler_add (sum_turned _ (periodic_evens per)) (IH _ _ (periodic_odds per) Nk)) (lexx _)) _.
+apply: le_trans (lerD (ler_normB _ _) (lexx _)) _.
+apply: le_trans (lerD (lerD (sum_turned _ (periodic_evens per)) (IH _ _ (periodic_odds per) Nk)) (lexx _)) _.
 by rewrite -!natrD ler_nat; nia.
 Qed.
 
@@ -107,21 +107,21 @@ Proof.
 elim/ltn_ind: l => l IH l0 b; have [l1|l2] := leqP l 1.
   have -> : l = 1%N by lia.
   exists (2 * d + 1 + 2 * d + 1)%N => M f per; apply: by_halves => // k N Nk; rewrite (sum_odd f b 0) expr0 mul1r.
-  apply: le_trans (ler_norm_add _ _) _; rewrite normrM normr_sign mul1r addrC.
-  exact: ler_add (sum_turned_next (periodic_odds per) Nk) (sum_turned _ (periodic_evens per)).
+  apply: le_trans (ler_normD _ _) _; rewrite normrM normr_sign mul1r addrC.
+  exact: lerD (sum_turned_next (periodic_odds per) Nk) (sum_turned _ (periodic_evens per)).
 have eh := odd_double_half l; have [lo|le] := boolP (odd l).
   have {}eh : l = l./2.*2.+1 by rewrite -{1}eh lo.
   have [C hC] := IH l./2 ltac:(lia) ltac:(lia) true; have [C' hC'] := IH l./2.+1 ltac:(lia) ltac:(lia) true.
   exists (C + C' + 2 * d + 1)%N => M f per; rewrite eh; apply: by_halves => // k N Nk; rewrite sum_odd.
-  apply: le_trans (ler_norm_add _ _) _; rewrite !normrM !normr_sign !mul1r !mulnDl natrD.
-  apply: le_trans (ler_add (hC _ _ (periodic_evens per) _ _ Nk) (hC' _ _ (periodic_odds per) _ _ Nk)) _.
-  by rewrite ler_addl ler0n.
+  apply: le_trans (ler_normD _ _) _; rewrite !normrM !normr_sign !mul1r !mulnDl natrD.
+  apply: le_trans (lerD (hC _ _ (periodic_evens per) _ _ Nk) (hC' _ _ (periodic_odds per) _ _ Nk)) _.
+  by rewrite lerDl ler0n.
 have {}eh : l = l./2.*2 by rewrite -{1}eh (negbTE le).
 have [C hC] := IH l./2 ltac:(lia) ltac:(lia) false.
 exists (C + C + 2 * d + 1)%N => M f per; rewrite eh; apply: by_halves => // k N Nk; rewrite sum_even.
-apply: le_trans (ler_norm_add _ _) _; rewrite !normrM !normr_sign !mul1r !mulnDl natrD.
-apply: le_trans (ler_add (hC _ _ (periodic_evens per) _ _ Nk) (hC _ _ (periodic_odds per) _ _ Nk)) _.
-by rewrite ler_addl ler0n.
+apply: le_trans (ler_normD _ _) _; rewrite !normrM !normr_sign !mul1r !mulnDl natrD.
+apply: le_trans (lerD (hC _ _ (periodic_evens per) _ _ Nk) (hC _ _ (periodic_odds per) _ _ Nk)) _.
+by rewrite lerDl ler0n.
 Qed.
 
 Theorem average_of_period M f l : archimedean K -> periodic M f -> (0 < l)%N -> time_average (fun t => f t * (r t * r (t + l)%N)) 0.
@@ -153,7 +153,7 @@ Proof.
 move=> l i j; case: l => [|l]; last first.
   rewrite mxE; have per : periodic d (a * a) (fun t => turn i t * turn j (t + l.+1)%N).
     split=> t; first by rewrite turn_period addnAC turn_period.
-    by rewrite normrM natrM; apply: ler_pmul; rewrite ?normr_ge0.
+    by rewrite normrM natrM; apply: ler_pM; rewrite ?normr_ge0.
   have := @average_of_period K d _ _ _ l.+1 arch per isT => /(_ ltac:(by rewrite /d oddM /a /= odd_double)).
   apply: (mean_ext isE) => t; rewrite /later !source_turn -!mulrA; congr (_ * _).
   by rewrite mulrCA.

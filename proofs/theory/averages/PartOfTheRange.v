@@ -5,7 +5,7 @@ From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice f
   matrix mxalgebra zify.
 From faultspace Require Import Vocabulary Consistency LimitsVocabulary MeansVocabulary ExampleVocabulary Places WholeRange Means
   MeanLimits Forgetting.
-From faultspace Require Import FilteredInputs TimeAverages RudinShapiro Responses.
+From faultspace Require Import FilteredInputs TimeAverages RudinShapiro Responses OrderNames.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -60,11 +60,11 @@ move=> arch /andP[a0 a1] NN eps eps0; pose c := a^-1 - 1.
 have c0 : 0 < c by rewrite subr_gt0 invf_gt1.
 have bernoulli m : a ^+ m * (1 + m%:R * c) <= 1.
   elim: m => [|m IH]; first by rewrite expr0 mul0r addr0 mulr1.
-  apply: le_trans IH; rewrite exprSr -mulrA ler_wpmul2l ?exprn_ge0 ?(ltW a0) //.
+  apply: le_trans IH; rewrite exprSr -mulrA ler_wpM2l ?exprn_ge0 ?(ltW a0) //.
   rewrite mulrSr mulrDl mul1r addrA [_ + c]addrC mulrDr {1}/c mulrBr mulfV ?(lt0r_neq0 a0) // mulr1.
   have : a * (1 + m%:R * c) <= a + m%:R * c.
-    by rewrite mulrDr mulr1 ler_add2l mulrC ler_pimulr ?(ltW a1) // mulr_ge0 ?ler0n ?(ltW c0).
-  by rewrite -(ler_add2l (1 - a)) [1 - a + (a + _)]addrA subrK.
+    by rewrite mulrDr mulr1 lerD2l mulrC ler_piMr ?(ltW a1) // mulr_ge0 ?ler0n ?(ltW c0).
+  by rewrite -(lerD2l (1 - a)) [1 - a + (a + _)]addrA subrK.
 have powers k : iter k (mulmxr (a%:M + N)) 1%:M = (a ^+ k)%:M + (k%:R * a ^+ k.-1) *: N.
   elim: k => [|k IH]; first by rewrite /= mul0r scale0r addr0 expr0.
   rewrite iterS IH /= mulmxDr !mulmxDl !mul_mx_scalar mul_scalar_mx -[_ *: N *m N]scalemxAl NN scaler0 addr0 scale_scalar_mx -exprS -addrA.
@@ -72,35 +72,35 @@ have powers k : iter k (mulmxr (a%:M + N)) 1%:M = (a ^+ k)%:M + (k%:R * a ^+ k.-
   by rewrite mulrCA -exprS [in RHS]mulrSr mulrDl mul1r.
 have [b b0 hb] := matrix_bound N; pose d := eps / (1 + 2%:R * (c * a)^-1 * b).
 have ca0 : 0 < c * a by rewrite mulr_gt0.
-have den0 : 0 < 1 + 2%:R * (c * a)^-1 * b by rewrite ltr_paddr ?ltr01 // !mulr_ge0 ?ler0n // invr_ge0 ltW.
+have den0 : 0 < 1 + 2%:R * (c * a)^-1 * b by rewrite ltr_wpDr ?ltr01 // !mulr_ge0 ?ler0n // invr_ge0 ltW.
 have d0 : 0 < d by rewrite divr_gt0.
-have [m hm] := arch (d^-1 / c); rewrite ltr_pdivr_mulr // in hm.
+have [m hm] := arch (d^-1 / c); rewrite ltr_pdivrMr // in hm.
 have am : a ^+ m < d.
-  have := bernoulli m; rewrite -ler_pdivl_mulr; last by rewrite ltr_spaddl ?ltr01 // mulr_ge0 ?ler0n ?(ltW c0).
-  move/le_lt_trans; apply; rewrite mul1r -[d]invrK ltf_pinv ?posrE ?invr_gt0 //;
-    last by rewrite ltr_spaddl ?ltr01 // mulr_ge0 ?ler0n ?(ltW c0).
-  by apply: lt_trans hm _; rewrite ltr_addr ltr01.
-exists (m + m)%N => i j; rewrite powers mxE; apply: le_lt_trans (ler_norm_add _ _) _.
-have a_le k l : (k <= l)%N -> a ^+ l <= a ^+ k by move=> kl; apply: ler_wiexpn2l => //; rewrite ltW.
+  have := bernoulli m; rewrite -ler_pdivlMr; last by rewrite ltr_pwDl ?ltr01 // mulr_ge0 ?ler0n ?(ltW c0).
+  move/le_lt_trans; apply; rewrite mul1r -[d]invrK ltf_pV2 ?posrE ?invr_gt0 //;
+    last by rewrite ltr_pwDl ?ltr01 // mulr_ge0 ?ler0n ?(ltW c0).
+  by apply: lt_trans hm _; rewrite ltrDr ltr01.
+exists (m + m)%N => i j; rewrite powers mxE; apply: le_lt_trans (ler_normD _ _) _.
+have a_le k l : (k <= l)%N -> a ^+ l <= a ^+ k by move=> kl; apply: ler_wiXn2l => //; rewrite ltW.
 have am0 : 0 <= a ^+ m by rewrite exprn_ge0 ?ltW.
 have first : `|(a ^+ (m + m))%:M i j| <= a ^+ m.
   rewrite mxE; case: (i == j); rewrite ?mulr0n ?normr0 // mulr1n ger0_norm ?exprn_ge0 ?(ltW a0) // a_le ?leq_addr //.
 have m_am : m%:R * a ^+ m <= c^-1.
-  rewrite -[c^-1]mul1r ler_pdivl_mulr //; apply: le_trans (bernoulli m).
-  by rewrite mulrAC mulrC ler_wpmul2l // ler_addr ler01.
+  rewrite -[c^-1]mul1r ler_pdivlMr //; apply: le_trans (bernoulli m).
+  by rewrite mulrAC mulrC ler_wpM2l // lerDr ler01.
 have second : `|((m + m)%:R * a ^+ (m + m).-1 *: N) i j| <= a ^+ m * (2%:R * (c * a)^-1 * b).
-  rewrite mxE normrM mulrA; apply: ler_pmul; rewrite ?normr_ge0 ?hb //.
+  rewrite mxE normrM mulrA; apply: ler_pM; rewrite ?normr_ge0 ?hb //.
   rewrite ger0_norm ?mulr_ge0 ?ler0n ?exprn_ge0 ?(ltW a0) //; case: (m) m_am am0 => [|k] m_am am0.
     by rewrite !mul0r mulr_ge0 ?mulr_ge0 ?ler0n ?invr_ge0 ?(ltW ca0) // expr0 ler01.
   have -> : (k.+1 + k.+1)%:R * a ^+ (k.+1 + k.+1).-1 = a ^+ k.+1 * (2%:R * (k.+1%:R * a ^+ k.+1 * a^-1)).
     have ek : a ^+ k.+1 * a^-1 = a ^+ k by rewrite exprSr mulfK ?lt0r_neq0.
     have e : ((k.+1 + k.+1).-1 = k.+1 + k)%N by rewrite addnS.
     by rewrite e -[_ * _ / a]mulrA ek exprD addnn -mul2n natrM -!mulrA [RHS]mulrCA; congr (_ * _); rewrite [RHS]mulrCA.
-  apply: ler_wpmul2l => //; apply: ler_wpmul2l; first exact: ler0n.
-  by rewrite invfM; apply: ler_wpmul2r; rewrite ?invr_ge0 ?(ltW a0).
+  apply: ler_wpM2l => //; apply: ler_wpM2l; first exact: ler0n.
+  by rewrite invfM; apply: ler_wpM2r; rewrite ?invr_ge0 ?(ltW a0).
 have : `|(a ^+ (m + m))%:M i j| + `|((m + m)%:R * a ^+ (m + m).-1 *: N) i j| <= a ^+ m * (1 + 2%:R * (c * a)^-1 * b).
-  by rewrite mulrDr mulr1 ler_add.
-by move/le_lt_trans; apply; rewrite -ltr_pdivl_mulr.
+  by rewrite mulrDr mulr1 lerD.
+by move/le_lt_trans; apply; rewrite -ltr_pdivlMr.
 Qed.
 
 (** What a limit of rank less than n means. *)
@@ -205,9 +205,9 @@ Proof.
 have norm (b : K) : `|b| = 1 -> `|(b%:M : 'M_1) 0 0| <= 1 by rewrite mxE mulr1n => ->.
 have -> : size_of (w t) = size_of (u t) + size_of (v t).
   rewrite /size_of big_split_ord; congr (_ + _); apply: eq_bigr => i _; by rewrite ?row_mxEl ?row_mxEr.
-apply: ler_add => //; rewrite /size_of big_ord1 /u.
+apply: lerD => //; rewrite /size_of big_ord1 /u.
 have -> : (e (t + 3)%N - e t) 0 0 = e (t + 3)%N 0 0 - e t 0 0 by rewrite mxE [X in _ + X]mxE.
-by apply: le_trans (ler_norm_sub _ _) _; apply: ler_add; apply: norm; apply: shapiro_norm.
+by apply: le_trans (ler_normB _ _) _; apply: lerD; apply: norm; apply: shapiro_norm.
 Qed.
 Let A_stable : stable (sysA S). Proof. by apply: double_pole_stable => //; rewrite mul_delta_mx_0. Qed.
 Let quasi : quasi_stationary E (fun t => row_mx (row_mx (u t) (v t)) (x t)).
@@ -246,7 +246,7 @@ have s0 := start (leqnn (m + 3)); have := next s0; rewrite mul0r !add0r rho_thre
 have := next s1; rewrite rho_else ?mulN1r ?addr0 ?mul0r ?addr0; [|lia|lia|lia] => s2.
 have := next s2; rewrite rho_else ?mulN1r ?addr0 ?mulNr -?opprD; [|lia|lia|lia] => s3.
 have := next s3; rewrite (_ : rho m.+3 (m + 3) = 1 + 1); last by rewrite addn3 rho_same.
-rewrite mulNr [- _ + _]addrC mulNr mulrDl -opprD addrA => s4.
+rewrite !mulNr [- (a * a * a) + _]addrC mulrDl -opprD addrA => s4.
 have := next s4; rewrite rho_else; [|lia|lia|lia]; rewrite addr0 mulrBl mulrDl mul1r mulNr !mulrDl -[1 + 1 - _ - _]addrA -opprD !addrA =>
   s5.
 by split; [rewrite addn2|rewrite addn4|rewrite (_ : (m + 5 = m.+4.+1)%N) //; lia].

@@ -5,7 +5,7 @@
     averages f a == entry by entry, f has the mean a *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum matrix
   mxalgebra zify.
-From faultspace Require Import MeansVocabulary Means TimeAverages.
+From faultspace Require Import MeansVocabulary Means TimeAverages OrderNames.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -20,23 +20,23 @@ Lemma size_positive n (x : 'rV[K]_n) : 0 <= size_of x.
 Proof. by apply: sumr_ge0 => i _. Qed.
 
 Lemma size_entry n (x : 'rV[K]_n) i : `|x 0 i| <= size_of x.
-Proof. by rewrite /size_of (bigD1 i) //= ler_addl; apply: sumr_ge0. Qed.
+Proof. by rewrite /size_of (bigD1 i) //= lerDl; apply: sumr_ge0. Qed.
 
 Lemma size_add n (x y : 'rV[K]_n) : size_of (x + y) <= size_of x + size_of y.
-Proof. by rewrite /size_of -big_split; apply: ler_sum => i _ /=; rewrite mxE ler_norm_add. Qed.
+Proof. by rewrite /size_of -big_split; apply: ler_sum => i _ /=; rewrite mxE ler_normD. Qed.
 
 Lemma size_mul n n' (x : 'rV[K]_n) (M : 'M_(n, n')) c : (forall i j, `|M i j| <= c) -> size_of (x *m M) <= size_of x * (c *+ n').
 Proof.
 move=> h; rewrite /size_of mulr_suml; apply: le_trans (_ : \sum_j \sum_i `|x 0 i| * `|M i j| <= _).
   by apply: ler_sum => j _; rewrite mxE; apply: le_trans (ler_norm_sum _ _ _) _; apply: ler_sum => i _; rewrite normrM.
-rewrite exchange_big; apply: ler_sum => i _ /=; rewrite -mulr_sumr ler_wpmul2l //.
+rewrite exchange_big; apply: ler_sum => i _ /=; rewrite -mulr_sumr ler_wpM2l //.
 by rewrite -[X in _ *+ X]card_ord -sumr_const; apply: ler_sum => j _.
 Qed.
 
 Lemma matrix_bound a b (M : 'M[K]_(a, b)) : exists2 c, 0 <= c & forall i j, `|M i j| <= c.
 Proof.
 exists (\sum_i \sum_j `|M i j|) => [|i j]; first by do 2!apply: sumr_ge0 => ? _.
-rewrite (bigD1 i) //= (bigD1 j) //= -addrA ler_addl addr_ge0 ?sumr_ge0 // => i' _; by rewrite sumr_ge0.
+rewrite (bigD1 i) //= (bigD1 j) //= -addrA lerDl addr_ge0 ?sumr_ge0 // => i' _; by rewrite sumr_ge0.
 Qed.
 
 (** A power of a stable matrix that shrinks by any factor. *)
@@ -46,8 +46,8 @@ move=> st e0; have h : 0 < eps / n.+1%:R by rewrite divr_gt0 ?ltr0n.
 have [k hk] := st _ h; exists k => x; have -> : iter k (mulmxr A) x = x *m iter k (mulmxr A) 1%:M.
   by elim: (k) => [|l IH] /=; rewrite ?mulmx1 // IH mulmxA.
 apply: le_trans (size_mul (c := eps / n.+1%:R) x _) _ => [i j|]; first by rewrite ltW.
-apply: ler_wpmul2l; first exact: size_positive.
-rewrite -[_ / _ *+ n]mulr_natr mulrAC ler_pdivr_mulr ?ltr0n // ler_pmul2l // ler_nat; exact: leqnSn.
+apply: ler_wpM2l; first exact: size_positive.
+rewrite -[_ / _ *+ n]mulr_natr mulrAC ler_pdivrMr ?ltr0n // ler_pM2l // ler_nat; exact: leqnSn.
 Qed.
 
 Lemma iterD_mul n (A : 'M[K]_n) k (x y : 'rV_n) : iter k (mulmxr A) (x + y) = iter k (mulmxr A) x + iter k (mulmxr A) y.
@@ -69,16 +69,16 @@ have [m m0 hm] : exists2 m, 0 <= m & forall t, exists2 e, x (t + k)%N = iter k (
   exists (m * (a *+ n.+1) + b).
     by rewrite addr_ge0 ?mulr_ge0 ?mulrn_wge0 //; apply: le_trans (gb 0%N); apply: size_positive.
   move=> t; have [e ee le] := IH t; exists (e *m A + g (t + l)%N); first by rewrite addnS step ee mulmxDl addrA.
-  apply: le_trans (size_add _ _) (ler_add _ (gb _)); apply: le_trans (size_mul _ ha) _.
-  by rewrite ler_wpmul2r ?mulrn_wge0.
+  apply: le_trans (size_add _ _) (lerD _ (gb _)); apply: le_trans (size_mul _ ha) _.
+  by rewrite ler_wpM2r ?mulrn_wge0.
 pose B0 := \sum_(t < k) size_of (x t); have B00 : 0 <= B0 by apply: sumr_ge0 => i _; apply: size_positive.
 exists (B0 + (m + m)) => t; elim/ltn_ind: t => t IH; have [tk|kt] := ltnP t k.
-  apply: le_trans (_ : B0 <= _); last by rewrite ler_addl addr_ge0.
-  rewrite /B0 (bigD1 (Ordinal tk)) //= ler_addl; apply: sumr_ge0 => i _; apply: size_positive.
+  apply: le_trans (_ : B0 <= _); last by rewrite lerDl addr_ge0.
+  rewrite /B0 (bigD1 (Ordinal tk)) //= lerDl; apply: sumr_ge0 => i _; apply: size_positive.
 have [e ee le] := hm (t - k)%N; rewrite subnK // in ee; rewrite ee; apply: le_trans (size_add _ _) _.
-apply: le_trans (ler_add (le_trans (hk _) (ler_wpmul2r _ (IH _ _))) le) _; first by rewrite invr_ge0 ler0n.
+apply: le_trans (lerD (le_trans (hk _) (ler_wpM2r _ (IH _ _))) le) _; first by rewrite invr_ge0 ler0n.
   by lia.
-rewrite [X in _ <= X]splitr ler_add2l ler_pdivl_mulr ?ltr0n // mulr_natr mulr2n; by rewrite ler_addr.
+rewrite [X in _ <= X]splitr lerD2l ler_pdivlMr ?ltr0n // mulr_natr mulr2n; by rewrite lerDr.
 Qed.
 
 End Norms.
@@ -92,14 +92,14 @@ Let isE : mean E := time_average_mean arch.
 Lemma average_earlier f a : E (fun t => f t.+1) a -> E f a.
 Proof.
 move=> fa eps e0; have h2 : 0 < eps / 2%:R by rewrite divr_gt0 ?ltr0n.
-have [M hM] := fa _ h2; have [k hk] := arch (`|f 0%N - a| / (eps / 2%:R)); rewrite ltr_pdivr_mulr // in hk.
+have [M hM] := fa _ h2; have [k hk] := arch (`|f 0%N - a| / (eps / 2%:R)); rewrite ltr_pdivrMr // in hk.
 exists (maxn M k).+1 => -[//|N]; rewrite ltnS geq_max => /andP[NM Nk].
 have -> : \sum_(t < N.+1) f t - N.+1%:R * a = (\sum_(t < N) f t.+1 - N%:R * a) + (f 0%N - a).
   by rewrite big_ord_recl mulrSr mulrDl mul1r opprD [f _ + _]addrC addrACA.
-apply: le_trans (ler_norm_add _ _) _; apply: le_trans (ler_add (hM N NM) (ltW hk)) _.
+apply: le_trans (ler_normD _ _) _; apply: le_trans (lerD (hM N NM) (ltW hk)) _.
 apply: le_trans (_ : N%:R * (eps / 2%:R) + N%:R * (eps / 2%:R) <= _).
-  by rewrite ler_add2l; apply: ler_wpmul2r; rewrite ?(ltW h2) // ler_nat.
-by rewrite -mulrDr -splitr; apply: ler_wpmul2r; rewrite ?(ltW e0) // ler_nat.
+  by rewrite lerD2l; apply: ler_wpM2r; rewrite ?(ltW h2) // ler_nat.
+by rewrite -mulrDr -splitr; apply: ler_wpM2r; rewrite ?(ltW e0) // ler_nat.
 Qed.
 
 (** What is arbitrarily near to signals of average zero has the average zero. *)
@@ -108,7 +108,7 @@ Proof.
 move=> h eps e0; have e2 : 0 < eps / 2%:R by rewrite divr_gt0 ?ltr0n.
 have [g g0 near] := h _ e2; have [M hM] := g0 _ e2; exists M => N MN; rewrite mulr0 subr0.
 have -> : \sum_(t < N) f t = \sum_(t < N) (f t - g t) + \sum_(t < N) g t by rewrite -big_split; apply: eq_bigr => t _; rewrite /= subrK.
-apply: le_trans (ler_norm_add _ _) _; rewrite [eps]splitr mulrDr; apply: ler_add; last by have := hM N MN; rewrite mulr0 subr0.
+apply: le_trans (ler_normD _ _) _; rewrite [eps]splitr mulrDr; apply: lerD; last by have := hM N MN; rewrite mulr0 subr0.
 apply: le_trans (ler_norm_sum _ _ _) _; apply: le_trans (_ : \sum_(t < N) eps / 2%:R <= _).
   by apply: ler_sum => t _; apply: near.
 by rewrite sumr_const card_ord mulr_natl.
@@ -146,14 +146,14 @@ have back k (h : nat -> K) : E (fun t => h (t + k)%N) 0 -> E h 0.
   elim: k h => [|k IH] h e; first by apply: (mean_ext isE) e => t; rewrite addn0.
   by apply: average_earlier; apply: IH; apply: (mean_ext isE) e => t; rewrite addnS.
 move=> j i; rewrite mxE; apply: average_near => eps eps0.
-have h : 0 < eps / (c + 1) by rewrite divr_gt0 // ltr_spaddr ?ltr01.
+have h : 0 < eps / (c + 1) by rewrite divr_gt0 // ltr_pwDr ?ltr01.
 have [k hk] := shrinks st h; have [e e0 he] := unroll k.
 exists (fun t => if (t < k)%N then f j t 0 i else e j (t - k)%N 0 i) => [|t].
   apply: (back k); have := e0 j i; rewrite mxE; apply: (mean_ext isE) => t; by rewrite ltnNge leq_addl addnK.
 case: ltnP => tk; first by rewrite subrr normr0 ltW.
 rewrite -{1}(subnK tk) he mxE addrK; apply: le_trans (size_entry _ i) _; apply: le_trans (hk _) _.
-apply: le_trans (ler_wpmul2r (ltW h) (fc _ _)) _; rewrite mulrA ler_pdivr_mulr ?ltr_spaddr ?ltr01 // mulrC.
-by rewrite ler_wpmul2l ?(ltW eps0) // ler_addl ler01.
+apply: le_trans (ler_wpM2r (ltW h) (fc _ _)) _; rewrite mulrA ler_pdivrMr ?ltr_pwDr ?ltr01 // mulrC.
+by rewrite ler_wpM2l ?(ltW eps0) // lerDl ler01.
 Qed.
 
 Lemma averages_earlier n (f : nat -> 'rV[K]_n) a : averages (fun t => f t.+1) a -> averages f a.
@@ -190,7 +190,7 @@ Qed.
 
 Lemma stein_stable : stable M.
 Proof.
-move=> eps eps0; pose d := Num.min eps 1; have d0 : 0 < d by rewrite lt_minr eps0 ltr01.
+move=> eps eps0; pose d := Num.min eps 1; have d0 : 0 < d by rewrite lt_min eps0 ltr01.
 have [k hk] := st d0; exists k => i j; case/mxvec_indexP: i => i1 i2; case/mxvec_indexP: j => j1 j2; set P := iter k (mulmxr A) 1%:M.
 have rows (X : 'M_(n * n)) i : row i (iter k (mulmxr M) X) = iter k (mulmxr M) (row i X).
   by elim: (k) => //= l IH; rewrite row_mul IH.
@@ -198,10 +198,10 @@ have -> : iter k (mulmxr M) 1%:M (mxvec_index i1 i2) (mxvec_index j1 j2) = P i1 
   have := congr1 (fun v : 'rV_(n * n) => v 0 (mxvec_index j1 j2)) (rows 1%:M (mxvec_index i1 i2)); rewrite mxE => ->.
   rewrite row1 -mxvec_delta stein_powers mxvecE -/P.
   by rewrite -(mul_delta_mx (0 : 'I_1)) !mulmxA -colE -mulmxA -rowE !mxE big_ord1 !mxE.
-rewrite normrM; apply: le_lt_trans (_ : d * `|P i2 j2| < eps); first by rewrite ler_wpmul2r // ltW.
-apply: lt_le_trans (_ : d * d <= _); first by rewrite ltr_pmul2l.
+rewrite normrM; apply: le_lt_trans (_ : d * `|P i2 j2| < eps); first by rewrite ler_wpM2r // ltW.
+apply: lt_le_trans (_ : d * d <= _); first by rewrite ltr_pM2l.
 apply: le_trans (_ : eps * 1 <= _); last by rewrite mulr1.
-by apply: ler_pmul; rewrite ?(ltW d0) // /d le_minl lexx ?orbT.
+by apply: ler_pM; rewrite ?(ltW d0) // /d ge_min lexx ?orbT.
 Qed.
 
 Lemma stein_unit : 1%:M - M \in unitmx.
@@ -211,7 +211,7 @@ have : y *m (1%:M - M) = 0 by rewrite /y -row_mul mulmx_ker row0.
 rewrite mulmxBr mulmx1 => /eqP; rewrite subr_eq0 => /eqP fix_y.
 have half : 0 < 2%:R^-1 :> K by rewrite invr_gt0 ltr0n.
 have [k hk] := shrinks stein_stable half; have same : iter k (mulmxr M) y = y by elim: (k) => //= l ->.
-have := hk y; rewrite same ler_pdivl_mulr ?ltr0n // mulr_natr mulr2n ger_addl => le0.
+have := hk y; rewrite same ler_pdivlMr ?ltr0n // mulr_natr mulr2n gerDl => le0.
 apply/rowP => j; rewrite [RHS]mxE; apply/eqP; rewrite -normr_eq0 eq_le normr_ge0 andbT.
 exact: le_trans (size_entry y j) le0.
 Qed.
@@ -227,7 +227,7 @@ Lemma state_bounded : exists2 c, 0 <= c & forall t, size_of (x t) <= c.
 Proof.
 have [b b0 hb] := matrix_bound B.
 have [t|c hc] := response_bounded st step (b := bw * (b *+ n)).
-  by apply: le_trans (size_mul _ hb) _; rewrite ler_wpmul2r ?mulrn_wge0.
+  by apply: le_trans (size_mul _ hb) _; rewrite ler_wpM2r ?mulrn_wge0.
 by exists c => //; apply: le_trans (size_positive _) (hc 0%N).
 Qed.
 
@@ -239,7 +239,7 @@ Lemma far j l : (h <= l.+1)%N -> averages (f j l) 0.
 Proof.
 move=> hl; have [c c0 hc] := state_bounded.
 have bounded k t : size_of (f j (l + k)%N t) <= bw * c.
-  rewrite size_scale; apply: ler_pmul; rewrite ?normr_ge0 ?size_positive ?hc //; exact: le_trans (size_entry _ _) (wb _).
+  rewrite size_scale; apply: ler_pM; rewrite ?normr_ge0 ?size_positive ?hc //; exact: le_trans (size_entry _ _) (wb _).
 have := driven_null st (f := fun k => f j (l + k)%N) (g := fun k t => (w (t + (l + k).+1)%N 0 j *: w t) *m B) _ _ bounded 0%N.
 rewrite addn0; apply=> [k t|k]; first by rewrite f_step (addnS l k).
 rewrite -(mul0mx _ B); apply: averages_mul => i; have := @short (l + k).+1 _ i j; rewrite !mxE => e.
@@ -287,12 +287,12 @@ have H_average : averages (fun t => mxvec (H t)) (mxvec Hbar).
 pose P := mxvec Hbar *m invmx (1%:M - M).
 have PM : mxvec Hbar = P - P *m M by rewrite -{1}[P]mulmx1 -mulmxBr mulmxKV // stein_unit.
 have size_F t : size_of (mxvec (F t) - P) <= c * c + size_of P.
-  apply: le_trans (size_add _ _) _; apply: ler_add; last first.
+  apply: le_trans (size_add _ _) _; apply: lerD; last first.
     by rewrite /size_of; apply: ler_sum => i _; rewrite mxE normrN.
   rewrite /size_of (reindex _ (curry_mxvec_bij n n)) /=.
   apply: le_trans (_ : \sum_i \sum_j `|x t 0 i| * `|x t 0 j| <= _).
     rewrite pair_big /=; apply: ler_sum => -[i j] _; by rewrite mxvecE mxE big_ord1 mxE normrM.
-  rewrite -big_distrlr; apply: ler_pmul; rewrite ?hc ?size_positive //; exact: size_positive.
+  rewrite -big_distrlr; apply: ler_pM; rewrite ?hc ?size_positive //; exact: size_positive.
 have F_average : averages (fun t => mxvec (F t) - P) 0.
   apply: (driven_null (stein_stable st) (f := fun _ t => mxvec (F t) - P) (g := fun _ t => mxvec (H t) - mxvec Hbar) _ _ (fun _ => size_F)
     0%N).

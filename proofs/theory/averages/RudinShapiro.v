@@ -3,7 +3,7 @@
     N, so that they grow like the logarithm of N. *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice div fintype finfun bigop prime order zmodp ssralg finalg
   ssrnum matrix zify.
-From faultspace Require Import MeansVocabulary ExampleVocabulary Means TimeAverages.
+From faultspace Require Import MeansVocabulary ExampleVocabulary Means TimeAverages OrderNames.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -78,8 +78,8 @@ Qed.
 
 Lemma sum_half b l N : `|sum_of b l N| <= `|sum_of b l N./2.*2| + 1.
 Proof.
-rewrite -{1}(odd_double_half N) addnC; case: (odd N); rewrite ?addn0 ?ler_addl ?ler01 // addn1.
-rewrite {1}/sum_of big_ord_recr /=; apply: le_trans (ler_norm_add _ _) _; rewrite ler_add2l.
+rewrite -{1}(odd_double_half N) addnC; case: (odd N); rewrite ?addn0 ?lerDl ?ler01 // addn1.
+rewrite {1}/sum_of big_ord_recr /=; apply: le_trans (ler_normD _ _) _; rewrite lerD2l.
 by rewrite /c !normrM !shapiro_norm normr_sign !mulr1.
 Qed.
 
@@ -88,7 +88,7 @@ Lemma by_halves b l C : (forall k M, (M < 2 ^ k)%N -> `|sum_of b l M.*2| <= (C *
 Proof.
 move=> h [[|//] _|k N Nk]; first by rewrite /sum_of big_ord0 normr0 muln0.
 have {}Nk : (N./2 < 2 ^ k)%N by move: Nk; rewrite expnS; lia.
-apply: le_trans (sum_half _ _ _) _; apply: le_trans (ler_add (h k _ Nk) (lexx 1)) _.
+apply: le_trans (sum_half _ _ _) _; apply: le_trans (lerD (h k _ Nk) (lexx 1)) _.
 by rewrite -[1]/(1%:R) -!natrD ler_nat mulnS; nia.
 Qed.
 
@@ -100,8 +100,8 @@ Proof.
 elim: k N => [[|//] _|k IH N Nk]; first by rewrite /sum_of big_ord0 normr0 muln0.
 have {}Nk : (N./2 < 2 ^ k)%N by move: Nk; rewrite expnS; lia.
 apply: le_trans (sum_half _ _ _) _; rewrite (sum_odd true 0) expr0 mul1r expr1 mulN1r.
-apply: le_trans (ler_add (ler_norm_sub _ _) (lexx 1)) _.
-apply: le_trans (ler_add (ler_add (sum_turned _) (IH _ Nk)) (lexx 1)) _.
+apply: le_trans (lerD (ler_normB _ _) (lexx 1)) _.
+apply: le_trans (lerD (lerD (sum_turned _) (IH _ Nk)) (lexx 1)) _.
 by rewrite -[1]/(1%:R) -!natrD ler_nat mulnS; lia.
 Qed.
 
@@ -110,19 +110,19 @@ Proof.
 elim/ltn_ind: l => l IH l0 b; have [l1|l2] := leqP l 1.
   have -> : l = 1%N by lia.
   exists (3 + 2)%N; apply: by_halves => k M Mk; rewrite (sum_odd b 0) expr0 mul1r.
-  apply: le_trans (ler_norm_add _ _) _; rewrite normrM normr_sign mul1r addrC.
-  exact: ler_add (sum_turned_next Mk) (sum_turned _).
+  apply: le_trans (ler_normD _ _) _; rewrite normrM normr_sign mul1r addrC.
+  exact: lerD (sum_turned_next Mk) (sum_turned _).
 have eh := odd_double_half l; have [lo|le] := boolP (odd l).
   have {}eh : l = l./2.*2.+1 by rewrite -{1}eh lo.
   have [C hC] := IH l./2 ltac:(lia) ltac:(lia) true; have [C' hC'] := IH l./2.+1 ltac:(lia) ltac:(lia) true.
   exists (C + C' + 2)%N; rewrite eh; apply: by_halves => k M Mk; rewrite sum_odd.
-  apply: le_trans (ler_norm_add _ _) _; rewrite !normrM !normr_sign !mul1r mulnDl natrD.
-  by apply: le_trans (ler_add (hC _ _ Mk) (hC' _ _ Mk)) _; rewrite ler_addl ler01.
+  apply: le_trans (ler_normD _ _) _; rewrite !normrM !normr_sign !mul1r mulnDl natrD.
+  by apply: le_trans (lerD (hC _ _ Mk) (hC' _ _ Mk)) _; rewrite lerDl ler01.
 have {}eh : l = l./2.*2 by rewrite -{1}eh (negbTE le).
 have [C hC] := IH l./2 ltac:(lia) ltac:(lia) false.
 exists (C + C + 2)%N; rewrite eh; apply: by_halves => k M Mk; rewrite sum_even.
-rewrite mulrDl mul1r; apply: le_trans (ler_norm_add _ _) _; rewrite !normrM !normr_sign !mul1r mulnDl natrD.
-by apply: le_trans (ler_add (hC _ _ Mk) (hC _ _ Mk)) _; rewrite ler_addl ler01.
+rewrite mulrDl mul1r; apply: le_trans (ler_normD _ _) _; rewrite !normrM !normr_sign !mul1r mulnDl natrD.
+by apply: le_trans (lerD (hC _ _ Mk) (hC _ _ Mk)) _; rewrite lerDl ler01.
 Qed.
 
 Lemma square_below_power k : (k * k <= 4 * 2 ^ k.-1)%N.
@@ -135,14 +135,14 @@ Hypothesis arch : archimedean K.
 
 Lemma average_log (f : nat -> K) C : (forall k N, (N < 2 ^ k)%N -> `|\sum_(t < N) f t| <= (C * k)%:R) -> time_average f (0 : K).
 Proof.
-move=> h eps e0; have [q hq] := arch (C%:R / eps); rewrite ltr_pdivr_mulr // in hq.
+move=> h eps e0; have [q hq] := arch (C%:R / eps); rewrite ltr_pdivrMr // in hq.
 exists (2 ^ (4 * q))%N => N NM; rewrite mulr0 subr0; pose k := (trunc_log 2 N).+1.
 have N0 : (0 < N)%N by apply: leq_trans NM; rewrite expn_gt0.
 have /andP[le lt] := trunc_log_bounds (leqnn 2) N0.
 have kq : (4 * q < k)%N by rewrite -(ltn_exp2l _ _ (leqnn 2)); apply: leq_ltn_trans NM lt.
 have qk : (q * k <= N)%N by apply: leq_trans le; have := square_below_power k; rewrite /k /= -/k; nia.
-apply: le_trans (h k N lt) _; rewrite natrM; apply: le_trans (ler_wpmul2r (ler0n _ k) (ltW hq)) _.
-by rewrite mulrAC -natrM ler_wpmul2r ?(ltW e0) // ler_nat.
+apply: le_trans (h k N lt) _; rewrite natrM; apply: le_trans (ler_wpM2r (ler0n _ k) (ltW hq)) _.
+by rewrite mulrAC -natrM ler_wpM2r ?(ltW e0) // ler_nat.
 Qed.
 
 Lemma average_products b l : (0 < l)%N -> time_average (c b l) 0.

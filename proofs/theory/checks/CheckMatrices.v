@@ -94,7 +94,7 @@ Section Sound.
 Variables (n m p : nat) (L : listed) (l : Z) (r : nat) (nulls combinations : pivoted).
 Let S := meant n m p L.
 Let e : rat := ratn (den L).
-Notation rV := (vec [fieldType of rat]).
+Notation rV := (vec (field_of rat)) (only parsing).
 
 Lemma vec_basis_at k (i : 'I_k) : rV k (basis_vector k i) = row i 1%:M.
 Proof.

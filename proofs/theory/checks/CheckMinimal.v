@@ -16,7 +16,7 @@ Local Open Scope ring_scope.
 Lemma field_modulo l : Z.ltb 1 l -> exists K : fieldType, number_rmorphism K l = 0.
 Proof.
 move/Z.ltb_lt => l1; have pr : prime (pdiv (Z.to_nat l)) by apply: pdiv_prime; lia.
-exists [fieldType of 'F_(pdiv (Z.to_nat l))]; rewrite /= /number; have -> : int_of_Z l = Z.to_nat l by lia.
+exists (field_of 'F_(pdiv (Z.to_nat l))); rewrite /= /number; have -> : int_of_Z l = Z.to_nat l by lia.
 by rewrite -pmulrn; apply/eqP; rewrite -(dvdn_charf (char_Fp pr)) pdiv_dvd.
 Qed.
 

@@ -6,7 +6,7 @@
          restricted S U == S with initial states in U, in coordinates of U *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
   mxalgebra mxpoly.
-From faultspace Require Import Vocabulary Basics Gap Proposition3.
+From faultspace Require Import Vocabulary Basics Gap Proposition3 MorphismNames.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -30,9 +30,9 @@ have power k : iter k (mulmxr A) x = x *m A ^+ k.
   by elim: k => [|k IH] /=; rewrite ?mulmx1 // IH exprSr mulmxA.
 have := Cayley_Hamilton A; rewrite -{1}[char_poly A]coefK size_char_poly poly_def big_ord_recr /= -/(lead_coef _).
 have -> : (char_poly A)`_n.+1 = 1 by have /monicP := char_poly_monic A; rewrite /lead_coef size_char_poly.
-rewrite scale1r rmorphD rmorphX /= horner_mx_X rmorph_sum /= addrC => /eqP; rewrite addr_eq0 => /eqP e.
+rewrite scale1r rmorphD rmorphXn /= horner_mx_X rmorph_sum /= addrC => /eqP; rewrite addr_eq0 => /eqP e.
 rewrite -[LHS]/(iter n.+1 (mulmxr A) x) power e mulmxN mulmx_sumr -sumrN; apply: eq_bigr => k _; rewrite power scaleNr; congr (- _).
-by rewrite -mul_polyC rmorphM rmorphX /= horner_mx_X horner_mx_C -mulmxE mul_scalar_mx -scalemxAr.
+by rewrite -mul_polyC rmorphM rmorphXn /= horner_mx_X horner_mx_C -mulmxE mul_scalar_mx -scalemxAr.
 Qed.
 
 (** A sequence with given n first terms zero and given values of a monic polynomial of the shift. *)

@@ -88,7 +88,7 @@ Notation mat := (matrix_of value).
 
 Theorem is_regression_sound n m p nu c s E B D P f R' X i1 i2 : is_regression n m p nu c s E B D P f R' X i1 i2 ->
   forall (C : numClosedFieldType) (embed : {rmorphism K -> C}),
-  stable_experiment (experiment_of (fun r => embed (value r) : [fieldType of C]) n m p nu c E) /\
+  stable_experiment (experiment_of (fun r => embed (value r) : C) n m p nu c E) /\
   forall N (Q : 'M[K]_N) e x st u y, stationary_process (experiment_of value n m p nu c E) Q s e x st u y ->
   let Uf := future 0 s u in cov Q Uf Uf \in unitmx /\
   forall M, cov Q Uf Uf *m M = cov Q Uf (future 0 s y) -> let rest := regression_rest (system_of value n m p (tplant E)) M in
@@ -97,7 +97,7 @@ Theorem is_regression_sound n m p nu c s E B D P f R' X i1 i2 : is_regression n 
 Proof.
 case/andP=> /andP[/andP[/and4P[s0 sizes fB fD] /and3P[/eqP sP stable solves]] /and4P[rank_u rank_o fR response]].
 case/andP=> states units C embed; split.
-  exact: (stable_states s0 sizes (@means_in R K [fieldType of C] value embed meaning) stable).
+  exact: (stable_states s0 sizes (@means_in R K C value embed meaning) stable).
 move=> N Q e x st u y running Uf; have know := told s0 sizes embed meaning sP stable solves running.
 have hold := recorded_signals s0 sizes meaning running.
 move: know hold rank_u rank_o response states units; set a := (n + _ * _)%N; set b := (a + _)%N; set W := row_mx _ (future 0 s e).
@@ -217,13 +217,13 @@ have -> : Hy *m C^T = Sum - Phi *m Sum *m A^T.
   by apply/eqP; rewrite eq_sym subr_eq addrC {1}eSum.
 rewrite mulmxBr linearB /=; apply/eqP; rewrite subr_eq0; apply/eqP.
 transitivity (\tr (A^T *m M *m Phi *m Sum)); last by rewrite !mulmxA [RHS]mxtrace_mulC !mulmxA.
-by rewrite {1}eM mulmxDl -(mulmxA _ (cov Q _ _)) follows mulmx0 addr0.
+by rewrite {1}eM mulmxDl -(mulmxA _ (cov Q (u 0%N) X1)) follows mulmx0 addr0.
 Qed.
 End Errors.
 
 Theorem is_output_error_sound n m p nu c E B D B' D' P f Sum : is_output_error n m p nu c E B D B' D' P f Sum ->
   forall (C : numClosedFieldType) (embed : {rmorphism K -> C}),
-  stable_experiment (experiment_of (fun r => embed (value r) : [fieldType of C]) n m p nu c E) /\
+  stable_experiment (experiment_of (fun r => embed (value r) : C) n m p nu c E) /\
   forall N (Q : 'M[K]_N) e x st u y, let E0 := experiment_of value n m p nu c E in stationary_process E0 Q 1 e x st u y ->
   forall z z1 B1 D1, model_states E0 Q e x st u (mat nu n B) z -> model_states E0 Q e x st u B1 z1 ->
   cov Q (z 1%N) (z 1%N) = cov Q (z 0%N) (z 0%N) -> cov Q (z1 1%N) (z 1%N) = cov Q (z1 0%N) (z 0%N) ->
@@ -232,7 +232,7 @@ Theorem is_output_error_sound n m p nu c E B D B' D' P f Sum : is_output_error n
   \tr (cov Q (error (mat nu p D) z) (error (mat nu p D) z)) + \tr (cov Q difference difference).
 Proof.
 case/andP=> /andP[/and5P[sizes0 stable0 sizes sB sD] /and4P[/eqP sP stable solves /eqP sS]] /and3P[series follows now] C embed.
-have H0 : (0 < 1)%N by []; have meaningC := @means_in R K [fieldType of C] value embed meaning.
+have H0 : (0 < 1)%N by []; have meaningC := @means_in R K C value embed meaning.
 split; first exact: (stable_states H0 sizes0 meaningC stable0).
 move=> N Q e x st u y E0 running z z1 B1 D1 model model1 lasting lasting1 error difference.
 have {}sB : mat nu n (tB E) = mat nu n B + mat nu n B' by rewrite (equal_meaning meaning sB) (mat_plus meaning).

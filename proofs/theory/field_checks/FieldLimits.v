@@ -109,7 +109,7 @@ End Basis.
 Lemma next_upper (K : fieldType) (value : numeral R -> K) : matrix_of value a a next = matrix_of value a a (take a next).
 Proof. by apply/matrixP => i j; rewrite !mxE nth_take. Qed.
 
-Lemma stable_states f (C : numClosedFieldType) (value : numeral R -> [fieldType of C]) : means value -> is_stable a (take a next) f ->
+Lemma stable_states f (C : numClosedFieldType) (value : numeral R -> C) : means value -> is_stable a (take a next) f ->
   stable_experiment (experiment_of value n m p nu c E).
 Proof.
 move=> meaning ok z x s step not_zero; have stable := is_stable_sound meaning ok.
@@ -176,8 +176,8 @@ have difference (D : 'M[K]_a) : (mat b a next)^T *m block_mx D 0 0 (0 : 'M_(H * 
 have stein : Phi^T *m (cov Q X0 X0 - mat a a P) *m Phi = cov Q X0 X0 - mat a a P.
   rewrite -difference -{2}eP' -{2}eP -mulmxBl -mulmxBr; congr (_ *m _ *m _).
   by rewrite opp_block_mx add_block_mx !oppr0 !addr0 subrr.
-have meaning' : means (fun r => embed (value r) : [fieldType of C]) := @means_in R K [fieldType of C] value embed meaning.
-have := is_stable_sound meaning' stable; rewrite -(@matrix_in R K [fieldType of C] value embed) -/Phi => stable_Phi.
+have meaning' : means (fun r => embed (value r) : C) := @means_in R K C value embed meaning.
+have := is_stable_sound meaning' stable; rewrite -(@matrix_in R K C value embed) -/Phi => stable_Phi.
 have := @stein_unique C a (map_mx embed Phi) (map_mx embed (cov Q X0 X0 - mat a a P)) stable_Phi.
 rewrite map_trmx -!map_mxM stein => /(_ erefl)/eqP; rewrite map_mx_eq0 subr_eq0 => /eqP e0.
 by rewrite e1 e0.
@@ -222,7 +222,7 @@ Qed.
 
 Theorem is_limit_sound n m p nu c past q s rl ro rj E P f i1 i2 i3 i4 : is_limit n m p nu c past q s rl ro rj E P f i1 i2 i3 i4 ->
   forall (C : numClosedFieldType) (embed : {rmorphism K -> C}),
-  stable_experiment (experiment_of (fun r => embed (value r) : [fieldType of C]) n m p nu c E) /\
+  stable_experiment (experiment_of (fun r => embed (value r) : C) n m p nu c E) /\
   forall N (Q : 'M[K]_N) e x st u y, stationary_process (experiment_of value n m p nu c E) Q (past + s) e x st u y ->
   let Z := row_mx (future 0 past u) (future 0 q y) in let Uf := future past s u in let Yf := future past s y in
   let seen := O (system_of value n m p (tplant E)) s in
@@ -232,7 +232,7 @@ Proof.
 case/andP=> /andP[/and3P[past0 q_past sizes] /and3P[/eqP sP stable solves]] /and4P[ranks_u ranks_l ranks_o ranks_j] C embed.
 have H0 : (0 < past + s)%N by rewrite addn_gt0 past0.
 split.
-  exact: (stable_states H0 sizes (@means_in R K [fieldType of C] value embed meaning) stable).
+  exact: (stable_states H0 sizes (@means_in R K C value embed meaning) stable).
 move=> N Q e x st u y running Z Uf Yf seen; case: (running) => _ _ steps reads _.
 have know := told H0 sizes embed meaning sP stable solves running.
 move: know ranks_u ranks_l ranks_o ranks_j; set a := (n + _ * _)%N; set b := (a + _)%N; set X := row_mx _ (future 0 (past + s) e).

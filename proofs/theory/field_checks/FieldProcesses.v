@@ -22,8 +22,9 @@ Qed.
 
 Lemma mxvec_index_val s q (i : 'I_s) (j : 'I_q) : mxvec_index i j = (i * q + j)%N :> nat.
 Proof.
-have lt : (index (i, j) (enum [finType of 'I_s * 'I_q]) < #|[finType of 'I_s * 'I_q]|)%N by rewrite cardE index_mem mem_enum.
-rewrite /mxvec_index /= /enum_rank /enum_rank_in val_insubd lt enumT unlock /= /prod_enum index_pairs ?mem_enum //.
+have -> : mxvec_index i j = index (i, j) (enum {: 'I_s * 'I_q}) :> nat.
+  by rewrite /mxvec_index /= -[in RHS](nth_enum_rank (i, j) (i, j)) index_uniq ?enum_uniq // -cardE ltn_ord.
+rewrite enumT unlock /= /prod_enum index_pairs ?mem_enum //.
 by rewrite !index_enum_ord size_enum_ord.
 Qed.
 

@@ -7,7 +7,7 @@ From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg poly ssrnum
   ssrint matrix mxalgebra mxpoly.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import CertificatesVocabulary NumbersVocabulary ExperimentsVocabulary Lists NumberLists.
+From faultspace Require Import CertificatesVocabulary NumbersVocabulary ExperimentsVocabulary Lists NumberLists OrderNames.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -16,17 +16,18 @@ Lemma difference_of_squares (K : comRingType) (x y G H G' H' : K) :
   (x * G + y * H) * (x * G' + y * H') - (y * G + x * H) * (y * G' + x * H') = (x * x - y * y) * (G * G' - H * H').
 Proof.
 have e (a b c d : K) : a * b * (c * d) = a * c * (b * d) by apply: mulrACA.
-rewrite !mulrDl !mulrDr (e x G x) (e x G y) (e y H x) (e y H y) (e y G y) (e y G x) (e x H y) (e x H x) ![y * x]mulrC.
-set b := _ * (G * H'); set c := _ * (H * G').
-rewrite [_ + b]addrC [_ + b]addrC ![b + _ + (c + _)]addrACA opprD addrACA subrr add0r opprD !mulrN !mulNr opprK -!addrA.
-by congr (_ + _); rewrite addrC [- _ - _]addrC -addrA.
+have expanded (a b : K) : (a * G + b * H) * (a * G' + b * H') = a * a * (G * G') + b * b * (H * H') + a * b * (G * H' + H * G').
+  rewrite mulrDl !mulrDr (e a G a) (e a G b) (e b H a) (e b H b) [b * a]mulrC -!addrA; congr (_ + _).
+  by rewrite addrA addrC.
+have turned (a b c d : K) : a + b - (c + d) = a - d - (c - b) by rewrite opprD opprB [- c - d]addrC addrACA.
+by rewrite !expanded [y * x]mulrC opprD addrACA subrr addr0 turned mulrBl !mulrBr.
 Qed.
 
 (** Values of a list of coefficients, ascending and descending. *)
 Section Values.
 Variable C : numClosedFieldType.
 Implicit Types (f g : seq Z) (z : C).
-Notation number := (number [fieldType of C]).
+Notation number := (number C).
 
 Definition up f z : C := foldr (fun c y => y * z + number c) 0 f.
 Definition down f z : C := foldl (fun y c => y * z + number c) 0 f.
@@ -91,12 +92,12 @@ Lemma larger (a b : Z) (G H : C) : `|number b| < `|number a| -> G != 0 -> `|H| <
 Proof.
 move=> ba G0 HG; split.
   apply/negP => /eqP e; have : `|number a * G| = `|number b * H| by move/eqP: e; rewrite addr_eq0 => /eqP ->; rewrite normrN.
-  rewrite !normrM; apply/eqP; rewrite gt_eqF //; apply: le_lt_trans (_ : `|number b| * `|G| < _); first exact: ler_wpmul2l.
-  by rewrite ltr_pmul2r // normr_gt0.
+  rewrite !normrM; apply/eqP; rewrite gt_eqF //; apply: le_lt_trans (_ : `|number b| * `|G| < _); first exact: ler_wpM2l.
+  by rewrite ltr_pM2r // normr_gt0.
 have square u v : `|number u * G + number v * H| ^+ 2 = (number u * G + number v * H) * (number u * G^* + number v * H^*).
   by rewrite normCK; congr (_ * _); rewrite rmorphD !rmorphM /= !number_conj.
-have squares (u v : C) : `|u| <= `|v| -> u * u^* <= v * v^* by move=> uv; rewrite -!normCK ler_expn2r ?nnegrE ?normr_ge0.
-rewrite -(ler_pexpn2r (n := 2)) ?nnegrE ?normr_ge0 // [number a * H + _]addrC !square -subr_ge0.
+have squares (u v : C) : `|u| <= `|v| -> u * u^* <= v * v^* by move=> uv; rewrite -!normCK !expr2 ler_pM ?normr_ge0.
+rewrite -ler_sqr ?nnegrE ?normr_ge0 // [number a * H + _]addrC !square -subr_ge0.
 have := squares _ _ (ltW ba); rewrite !number_conj -subr_ge0 => /mulr_ge0 h.
 have := squares _ _ HG; rewrite -subr_ge0 => /h; set x := number a; set y := number b.
 by rewrite -(difference_of_squares x y G H G^* H^*).
@@ -107,10 +108,10 @@ Lemma backward (a b : Z) (D U : C) : `|number b| < `|number a| -> number a * D -
   `|number a * U - number b * D| <= `|number a * D - number b * U| -> D != 0 /\ `|U| <= `|D|.
 Proof.
 move=> ba G0 HG; have [] := larger ba G0 HG; set x := number a; set y := number b.
-have solved (u v : [fieldType of C]) : x * (x * u - y * v) + y * (x * v - y * u) = (x * x - y * y) * u.
+have solved (u v : C) : x * (x * u - y * v) + y * (x * v - y * u) = (x * x - y * y) * u.
   by rewrite !mulrBr !mulrA [y * x]mulrC addrA subrK mulrBl.
 rewrite !solved => DU; have xy : x * x - y * y != 0 by apply: contraNneq DU => ->; rewrite mul0r.
-rewrite !normrM ler_pmul2l ?normr_gt0 // => le_UD; split=> //.
+rewrite !normrM ler_pM2l ?normr_gt0 // => le_UD; split=> //.
 by apply: contraNneq DU => ->; rewrite mulr0.
 Qed.
 
@@ -130,8 +131,8 @@ have eU : number a * up (a :: rcons r b) z - number b * down (a :: rcons r b) z 
   by rewrite !mulrDr opprD addrACA !(mulrCA _ (z ^+ _)) [number b * number a]mulrC subrr addr0.
 have G0 : down g z * z != 0 by rewrite -dh down_scale !mulf_neq0.
 have HG : `|up g z| <= `|down g z * z|.
-  rewrite -dh down_scale up_scale !normrM -mulrA ler_wpmul2l ?normr_ge0 //; apply: le_trans le_h _.
-  by rewrite ler_pemulr ?normr_ge0.
+  rewrite -dh down_scale up_scale !normrM -mulrA ler_wpM2l ?normr_ge0 //; apply: le_trans le_h _.
+  by rewrite ler_peMr ?normr_ge0.
 by apply: (backward (number_lt ba)); rewrite ?eD ?eU.
 Qed.
 
@@ -141,7 +142,7 @@ End Values.
 Section Matrices.
 Variables (C : numClosedFieldType) (n : nat).
 Implicit Types (f : seq Z) (M : 'M[C]_n).
-Notation number := (number [fieldType of C]).
+Notation number := (number C).
 Definition polynomial_at f M : 'M[C]_n := foldl (fun Y c => Y *m M + (number c)%:M) 0 f.
 
 Lemma polynomial_at_eigenvector f M z (x : 'rV[C]_n) : x *m M = z *: x -> x *m polynomial_at f M = down f z *: x.
@@ -208,10 +209,10 @@ End Matrices.
 
 (** The check of stability, for numbers that mean complex ones. *)
 Section Meaning.
-Variables (R : arithmetic) (C : numClosedFieldType) (value : numeral R -> [fieldType of C]).
+Variables (R : arithmetic) (C : numClosedFieldType) (value : numeral R -> C).
 Hypothesis meaning : means value.
 
-Lemma integer_in_value a : value (integer_in R a) = number [fieldType of C] a.
+Lemma integer_in_value a : value (integer_in R a) = number C a.
 Proof.
 have positive b : value (positive_in R b) = (Pos.to_nat b)%:R.
   elim: b => [b IH|b IH|] /=; rewrite ?(value_plus meaning) ?(value_one meaning) ?IH //.
@@ -260,6 +261,6 @@ Theorem system_stable (R : arithmetic) (K : fieldType) (value : numeral R -> K) 
   forall (C : numClosedFieldType) (embed : {rmorphism K -> C}), schur_stable (map_mx embed (matrix_of value n n M) : 'M[C]_n).
 Proof.
 move=> meaning ok C embed.
-have meaning' : means (fun a => embed (value a) : [fieldType of C]) := @means_in R K [fieldType of C] value embed meaning.
-by rewrite (@matrix_in R K [fieldType of C] value embed); exact: (is_stable_sound meaning' ok).
+have meaning' : means (fun a => embed (value a) : C) := @means_in R K C value embed meaning.
+by rewrite (@matrix_in R K C value embed); exact: (is_stable_sound meaning' ok).
 Qed.

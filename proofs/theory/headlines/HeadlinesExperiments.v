@@ -21,7 +21,7 @@ Proof. exact: Stability.system_stable. Qed.
 Theorem field_moesp_limit (R : arithmetic) (K : fieldType) (value : numeral R -> K) n m p nu c past q s rl ro rj E P f i1 i2 i3 i4 :
   means value -> is_limit n m p nu c past q s rl ro rj E P f i1 i2 i3 i4 ->
   forall (C : numClosedFieldType) (embed : {rmorphism K -> C}),
-  stable_experiment (experiment_of (fun r => embed (value r) : [fieldType of C]) n m p nu c E) /\
+  stable_experiment (experiment_of (fun r => embed (value r) : C) n m p nu c E) /\
   forall N (Q : 'M[K]_N) e x st u y, stationary_process (experiment_of value n m p nu c E) Q (past + s) e x st u y ->
   let Z := row_mx (future 0 past u) (future 0 q y) in let Uf := future past s u in let Yf := future past s y in
   let seen := O (system_of value n m p (tplant E)) s in
@@ -34,7 +34,7 @@ Proof. move=> meaning; exact: (FieldLimits.is_limit_sound meaning). Qed.
 Theorem field_input_limit_moesp (R : arithmetic) (K : realFieldType) (value : numeral R -> K) n m p nu c s E B D P f R' X i1 i2 :
   means value -> is_regression n m p nu c s E B D P f R' X i1 i2 ->
   forall (C : numClosedFieldType) (embed : {rmorphism K -> C}),
-  stable_experiment (experiment_of (fun r => embed (value r) : [fieldType of C]) n m p nu c E) /\
+  stable_experiment (experiment_of (fun r => embed (value r) : C) n m p nu c E) /\
   forall N (Q : 'M[K]_N) e x st u y, stationary_process (experiment_of value n m p nu c E) Q s e x st u y ->
   let Uf := future 0 s u in let B0 := matrix_of value nu n B in let D0 := matrix_of value nu p D in cov Q Uf Uf \in unitmx /\
   forall M, cov Q Uf Uf *m M = cov Q Uf (future 0 s y) -> let rest := regression_rest (system_of value n m p (tplant E)) M in
@@ -47,7 +47,7 @@ Proof. move=> meaning; exact: (FieldInputs.is_regression_sound meaning). Qed.
 Theorem field_input_limit_true_AC (R : arithmetic) (K : fieldType) (value : numeral R -> K) n m p nu c E B D B' D' P f Sum :
   means value -> is_output_error n m p nu c E B D B' D' P f Sum ->
   forall (C : numClosedFieldType) (embed : {rmorphism K -> C}),
-  stable_experiment (experiment_of (fun r => embed (value r) : [fieldType of C]) n m p nu c E) /\
+  stable_experiment (experiment_of (fun r => embed (value r) : C) n m p nu c E) /\
   forall N (Q : 'M[K]_N) e x st u y, let E0 := experiment_of value n m p nu c E in stationary_process E0 Q 1 e x st u y ->
   forall z z1 B1 D1, model_states E0 Q e x st u (matrix_of value nu n B) z -> model_states E0 Q e x st u B1 z1 ->
   cov Q (z 1%N) (z 1%N) = cov Q (z 0%N) (z 0%N) -> cov Q (z1 1%N) (z 1%N) = cov Q (z1 0%N) (z 0%N) ->

@@ -85,7 +85,7 @@ exact: (OneState.one_state_whole_range sym pos model stable uv driven start uu u
 Qed.
 
 (** There are such signals for a coloured u, with t = s = 1: u(k) = e(k) + e(k-1)/2 and A = 1/2. *)
-Theorem one_state_signals_exist : let S : system [fieldType of rat] 1 0 1 := System (1 / 2%:R)%:M 0 1%:M 0 in
+Theorem one_state_signals_exist : let S : system (field_of rat) 1 0 1 := System (1 / 2%:R)%:M 0 1%:M 0 in
   exists (Q : 'M[rat]_7) (u z : nat -> 'cV[rat]_7), [/\ Q^T = Q /\ (forall g : 'cV_7, 0 <= cov Q g g 0 0),
     process S (1%:M : 'M_1) 0 u (fun=> 0) z z /\ (forall k, z k.+1 = z k *m sysA S + u k *m 1%:M),
     [/\ stationary Q u u 3, stationary Q u z 3 & stationary Q z z 3], cov Q (future 1 2 u) (future 1 2 u) \in unitmx

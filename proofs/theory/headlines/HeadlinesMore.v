@@ -25,8 +25,9 @@ Proof. exact: Theorem3.theorem_3_part_i. Qed.
 (** almost-every: the bad P are the common zeros of the coefficients of D, polynomials in the entries of P that do not all vanish; on
     every line through a good P all but at most m are good, the system being left-invertible *)
 Theorem theorem_3_almost_every (K : fieldType) n m p (S : system K n m p) s (Z : 'M_(zeta S + \rank (transfer S), n + p)) :
-  (lag S < s)%N -> spans_solutions S s Z -> row_free Z -> exists a b : 'M_(zeta S, zeta S + \rank (transfer S)),
-  let D P := \det (col_mx ('X *: map_mx polyC b - map_mx polyC a) (map_mx polyC P)) in
+  (lag S < s)%N -> spans_solutions S s Z -> row_free Z -> exists a b : 'M[K]_(zeta S, zeta S + \rank (transfer S)),
+  let D (P : 'M[K]_(\rank (transfer S), zeta S + \rank (transfer S))) : {poly K} :=
+    \det (col_mx ('X *: map_mx polyC b - map_mx polyC a) (map_mx polyC P)) in
   (forall P, same_behavior (faults_of S (P *m Z)) S <-> D P != 0) /\ exists P, D P != 0.
 Proof. exact: GoodPairs.almost_every_pair. Qed.
 Theorem theorem_3_on_lines (K : fieldType) n m p (S : system K n m p) s k (Z : 'M_(k, n + p)) (P P1 : 'M_(m, k)) (ts : seq K) :

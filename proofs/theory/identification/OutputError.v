@@ -4,7 +4,7 @@
     observes (A, C). *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum matrix
   mxalgebra zify.
-From faultspace Require Import Vocabulary Signals Leads Regression.
+From faultspace Require Import Vocabulary Signals Leads Regression OrderNames.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -127,7 +127,7 @@ have -> := error_of_any_fit model u_white v_leads past_state Jt tH B' D' symmetr
 have tr_sum (M : 'I_k.+1 -> 'M[K]_p) : \tr (\sum_d M d) = \sum_d \tr (M d) by rewrite raddf_sum.
 rewrite mxtraceD tr_sum; set dB := _ - B'; set dD := _ - D'.
 have pos (d : 'I_k.+1) : true -> 0 <= \tr ((impulse S dB dD d)^T *m impulse S dB dD d) by case: (trace_square (impulse S dB dD d)).
-split; first by rewrite ler_addl; apply: sumr_ge0 => d _; apply: pos.
+split; first by rewrite lerDl; apply: sumr_ge0 => d _; apply: pos.
 move=> obs /eqP; rewrite -subr_eq0 addrC addKr psumr_eq0 // => /allP z.
 have [d dk|b d] := @no_impulse K n m p nu S k dB dD obs.
   by have [_] := trace_square (impulse S dB dD d); apply; apply/eqP; have := z (Ordinal dk) (mem_index_enum _).

@@ -3,7 +3,7 @@
     samples that distance is zero for the same B and D alone. *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum matrix
   mxalgebra zify.
-From faultspace Require Import Vocabulary ExperimentsVocabulary OutputError Regression.
+From faultspace Require Import Vocabulary ExperimentsVocabulary OutputError Regression OrderNames.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -35,8 +35,8 @@ move=> states inputs s0 obs B' D' X'; rewrite (rest_of_another B D X B' D' X'); 
 have EM : \tr (E^T *m M) = 0.
   by rewrite mxtrace_mulC /M (mulmxDl (T _ s)) mxtraceD inputs -mulmxA states mulmx0 mxtrace0 addr0.
 rewrite (squares_add EM).
-have [pos zero] := trace_square M; split; first by rewrite ler_addl.
-rewrite ger_addl => le; have {le}/zero/eqP : squares M = 0 by apply/eqP; rewrite Order.POrderTheory.eq_le le pos.
+have [pos zero] := trace_square M; split; first by rewrite lerDl.
+rewrite gerDl => le; have {le}/zero/eqP : squares M = 0 by apply/eqP; rewrite Order.POrderTheory.eq_le le pos.
 rewrite addr_eq0 -mulNmx => /eqP/(no_response s0 obs)[/eqP + /eqP]; rewrite !subr_eq0 => /eqP-> /eqP->; by split.
 Qed.
 End Fit.

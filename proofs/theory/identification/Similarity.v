@@ -19,7 +19,7 @@ Lemma similar_observability s : similar S S' -> (O S' s :=: O S s)%MS.
 Proof.
 case=> P unit [eA eC]; have -> : O S' s = P *m O S s.
   apply/row_matrixP=> i; rewrite row_mul mul_O !rowK; apply: samples_ext => k _.
-  by rewrite /output !mul0mx !addr0 eC mulmxA similar_state // rowE mulmx1 [in RHS]rowE.
+  by rewrite /output !mul0mx !addr0 eC mulmxA similar_state // [row i 1%:M]rowE mulmx1 [row i P]rowE.
 by apply: eqmxMfull; rewrite row_full_unit.
 Qed.
 

@@ -251,8 +251,8 @@ Theorem whole_range_autoregressive_stationary_instance : exists (K : fieldType) 
 Proof.
 pose c : rat := 2%:R^-1.
 have c1 : c ^+ 2 != 1 by [].
-have [Q [u [e [x [y [sym model [ar later] [uu ux] unit]]]]]] := @ColouredInputs.first_order_signals [fieldType of rat] c c 3 c1 c1.
-exists [fieldType of rat], 3%N, 1%N, 0%N, 1%N, 1%N, Q, (System c%:M 0 1%:M 0), 1%:M, 0, u, (fun=> 0), x, y, 2%N, 1%N, 1%N, 1%N.
+have [Q [u [e [x [y [sym model [ar later] [uu ux] unit]]]]]] := @ColouredInputs.first_order_signals (field_of rat) c c 3 c1 c1.
+exists (field_of rat), 3%N, 1%N, 0%N, 1%N, 1%N, Q, (System c%:M 0 1%:M 0), 1%:M, 0, u, (fun=> 0), x, y, 2%N, 1%N, 1%N, 1%N.
 exists (fun=> c%:M), e; eexists; split; first exact: sym.
 split; first exact: model.
 split; first by move=> i k _ _; exact: cov_zero.

@@ -7,7 +7,7 @@
            quasi_part == a linear image of a quasi-stationary signal is quasi-stationary
              averaged == the plain system with these white signals *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary LimitsVocabulary MeansVocabulary ExampleVocabulary Means InstancesOfLimits.
+From faultspace Require Import Vocabulary LimitsVocabulary MeansVocabulary ExampleVocabulary Means InstancesOfLimits OrderNames.
 From faultspace Require MeanLimits TimeAverages WhiteSources NoisyMeans PeriodicSignals PeriodicMeans.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
@@ -16,8 +16,9 @@ Local Open Scope ring_scope.
 (** The field is kept abstract, so that nothing is computed with rational numbers. *)
 Lemma archimedean_field : exists K : realFieldType, archimedean K.
 Proof.
-exists [realFieldType of rat] => a; exists (Num.bound `|a|).
-by apply: le_lt_trans (ler_norm a) (archi_boundP (normr_ge0 a)).
+exists [the realFieldType of rat : Type] => a; exists `|numq a|.+1%N; apply: le_lt_trans (ler_norm a) _.
+apply: le_lt_trans (_ : `|(numq a)%:~R| < _); last by rewrite -intr_norm -natr_absz ltr_nat ltnSn.
+by rewrite numqE normrM ler_peMr ?normr_ge0 // -intr_norm normr_denq -[1]/(1%:~R) ler_int -gtz0_ge1 denq_gt0.
 Qed.
 
 Lemma plain_stable (K : realFieldType) n : stable (0 : 'M[K]_n).

@@ -128,7 +128,7 @@ Theorem zero_feedthrough_signal_instance (K : fieldType) : exists n m p (S : sys
 Proof. by have [n [m [p [S [s [g [_ [G0 [inv minors]]]]]]]]] := zero_feedthrough_instance K; exists n, m, p, S, g. Qed.
 
 Lemma zero_at_zero (K : fieldType) n p (S : system K n 1 p) (x : 'rV_n) :
-  left_invertible S -> x != 0 -> x *m sysA S = 0 -> x *m sysC S = 0 -> zero_of S [rmorphism of idfun] 0.
+  left_invertible S -> x != 0 -> x *m sysA S = 0 -> x *m sysC S = 0 -> zero_of S [the {rmorphism _ -> _} of idfun] 0.
 Proof.
 move=> /TransferRank.left_invertible_transfer_rank inv x0 xA xC; rewrite /zero_of inv ltn_neqAle rank_leq_row andbT.
 apply/negP => free; have := mulmx_free_eq0 (row_mx x 0) free.
@@ -141,7 +141,7 @@ Theorem trajectory_multiplicity_instance (K : fieldType) :
   exists (L : fieldType) (f : {rmorphism K -> L}) z, zero_of S f z.
 Proof.
 have [inv _ _] := UnobservableZeros.twice_zero_not_recovered K.
-move=> S; exists K, [rmorphism of idfun], 0; apply: (zero_at_zero (x := row_mx 1%:M 0)) => //.
+move=> S; exists K, [the {rmorphism _ -> _} of idfun], 0; apply: (zero_at_zero (x := row_mx 1%:M 0)) => //.
 - by rewrite row_mx_eq0 oner_eq0.
 - by rewrite mul_row_block !mulmx0 !mul0mx !addr0 row_mx0.
 by rewrite mul_row_col mulmx0 mul0mx addr0.
@@ -153,7 +153,7 @@ Theorem trajectory_multiplicity_delayed_instance (K : fieldType) :
   exists (L : fieldType) (f : {rmorphism K -> L}) z, zero_of S f z.
 Proof.
 have [inv _ _] := UnobservableZeros.twice_zero_delayed_not_recovered K.
-move=> S; exists K, [rmorphism of idfun], 0; apply: (zero_at_zero (x := row_mx 1%:M 0)) => //.
+move=> S; exists K, [the {rmorphism _ -> _} of idfun], 0; apply: (zero_at_zero (x := row_mx 1%:M 0)) => //.
 - by rewrite row_mx_eq0 oner_eq0.
 - by rewrite mul_row_block !mulmx0 !mul0mx !addr0 row_mx0.
 by rewrite mul_row_col mulmx0 mul0mx addr0.

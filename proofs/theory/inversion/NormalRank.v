@@ -13,7 +13,7 @@ Section Constants.
 Variable K : fieldType.
 Notation over := (@over_fractions K _ _).
 Notation const := (map_mx (@polyC K)).
-Let embed := [rmorphism of @FracField.tofrac [idomainType of {poly K}] \o @polyC K].
+Let embed := [the {rmorphism _ -> _} of @FracField.tofrac _ \o @polyC K].
 
 Lemma over_constE a b (M : 'M[K]_(a, b)) : over (const M) = map_mx embed M.
 Proof. by rewrite /over_fractions -map_mx_comp. Qed.
@@ -59,7 +59,7 @@ Proof. by rewrite -row_row_mx hsubmxK. Qed.
 Lemma silent_pairs_pencil : const E *m pencil S = row_mx ('X *: const X - const N) 0.
 Proof.
 rewrite -{1}[E]hsubmxK map_row_mx mul_row_block mulmxBr mul_mx_scalar mulmxN -!map_mxM -map_mxD -addrA -opprD -map_mxD -/X -/N.
-congr row_mx; rewrite -[RHS](map_mx0 (@polyC_additive K)); congr map_mx.
+congr row_mx; rewrite -[RHS](map_mx0 [the {additive _ -> _} of @polyC K]); congr map_mx.
 apply/row_matrixP => i; have := row_sub i E; rewrite row_pairs => /silent_pairsP[_ e].
 by rewrite linearD /= !row_mul row0 -[RHS]e.
 Qed.

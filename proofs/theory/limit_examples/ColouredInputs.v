@@ -150,7 +150,7 @@ rewrite -row_full_unit; apply: row_full_seen => c Mc; have picked : pick *m c = 
 by rewrite -[c]mul1mx -pickK -mulmxA picked mulmx0.
 Qed.
 
-Theorem moving_average_signals : let S : system [fieldType of rat] 1 0 1 := System half%:M 0 1%:M 0 in
+Theorem moving_average_signals : let S : system (field_of rat) 1 0 1 := System half%:M 0 1%:M 0 in
   exists (u' z' : nat -> 'cV[rat]_7), [/\ Q^T = Q /\ (forall g : 'cV_7, 0 <= cov Q g g 0 0),
     process S (1%:M : 'M_1) 0 u' (fun=> 0) z' z' /\ (forall k, z' k.+1 = z' k *m sysA S + u' k *m 1%:M),
     [/\ stationary Q u' u' 3, stationary Q u' z' 3 & stationary Q z' z' 3], cov Q (future 1 2 u') (future 1 2 u') \in unitmx

@@ -68,7 +68,7 @@ Corollary one_sided_is_not_enough H : let a : rat := 1 / 2%:R in exists u : nat 
       forall t q s L, (q <= t)%N -> (t + s < H)%N ->
         projected_limit 1%:M (future (t - q) q u) (future t s u) (future t s y) L -> L = 0].
 Proof.
-move=> a; have [u u_white] := white_exists [fieldType of rat] 1 H; exists u => v; split=> //.
+move=> a; have [u u_white] := white_exists (field_of rat) 1 H; exists u => v; split=> //.
 exists (fun k => row_mx (u k) (u k.+1)); have [model one controllable observable limit] := zero_limit a u_white.
 by split=> //; apply: controllable.
 Qed.
@@ -128,11 +128,11 @@ by move: k i k4 ik => [|[|[|[|k]]]] [|[|[|[|i]]]] // _ _; vm_compute.
 Qed.
 
 (** Two samples of a scalar signal as a matrix of two columns. *)
-Definition pick : 'M[rat]_(2, 2 * 1) := \matrix_(j < 2) row 0 (place [fieldType of rat] 1 j).
+Definition pick : 'M[rat]_(2, 2 * 1) := \matrix_(j < 2) row 0 (place (field_of rat) 1 j).
 
 Lemma mul_pick a (M : 'M_(a, 2 * 1)) i (j : 'I_2) : (M *m pick^T) i j = vec_mx (row i M) j 0.
 Proof.
-transitivity ((row i M *m (place [fieldType of rat] 1 j)^T) 0 0); last by rewrite mul_place_transposed mxE.
+transitivity ((row i M *m (place (field_of rat) 1 j)^T) 0 0); last by rewrite mul_place_transposed mxE.
 by rewrite !mxE; apply: eq_bigr => l _; rewrite !mxE.
 Qed.
 
@@ -156,7 +156,7 @@ Proof. by rewrite cov_mul cov_mul_left trmxK. Qed.
 Theorem limit_of_rank_2 L : projected_limit Q (future 0 2 u) (future 2 2 u) (future 2 2 y) L -> \rank L = 2%N.
 Proof.
 move=> [X [hX ->]]; set U := future 2 2 u in hX *; set Z := future 0 2 u in hX *; set Y := future 2 2 y.
-pose first := (place [fieldType of rat] (1 + 1) (ord0 : 'I_2))^T.
+pose first := (place (field_of rat) (1 + 1) (ord0 : 'I_2))^T.
 have eZ : Z *m pick^T = signals 2 [:: nth [::] us 0; nth [::] us 1] by apply: pick_future.
 have eU : U *m pick^T = signals 2 [:: nth [::] us 2; nth [::] us 3] by apply: pick_future.
 have eY : Y *m first = signals 2 [:: xs 2; nth [::] vs 2].
@@ -182,7 +182,7 @@ have {eX} -> : X' = square 0 0 (10%:R / 21%:R) (- (4%:R / 21%:R)).
 set M := cov Q Z Y - _ => e.
 have {}e : pick *m M *m first = square (25%:R / 16%:R) 0 (233%:R / 168%:R) (4%:R / 21%:R).
   by rewrite e square_mul square_sub; congr square; apply: number; vm_compute.
-have := @square_lower_rank [fieldType of rat] (25%:R / 16%:R) (233%:R / 168%:R) (4%:R / 21%:R).
+have := @square_lower_rank (field_of rat) (25%:R / 16%:R) (233%:R / 168%:R) (4%:R / 21%:R).
 rewrite -e => rank2; apply/eqP; rewrite eqn_leq; apply/andP; split; first exact: rank_leq_row.
 rewrite -[X in (X <= _)%N]rank2; [|by vm_compute|by vm_compute].
 by rewrite (leq_trans (mxrankM_maxl _ _)) // mxrankM_maxr.

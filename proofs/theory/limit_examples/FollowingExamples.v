@@ -4,7 +4,7 @@
     of rank 2. *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum matrix
   mxalgebra zify.
-From faultspace Require Import Vocabulary Windows Places Signals Consistency Leads Regression Undetectable FollowingFault.
+From faultspace Require Import Vocabulary Windows Places Signals Consistency Leads Regression Undetectable FollowingFault OrderNames.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -97,7 +97,7 @@ have : (o *m h^T *m h <= o)%MS.
 have -> : o *m h^T = (\sum_(k < s) (a ^+ k * (if nat_of_ord k is j.+1 then (a + f) * a ^+ j else 1)))%:M.
   rewrite samples_dot raddf_sum; apply: eq_bigr => -[[|k] ks] _; rewrite /ov /hv tr_scalar_mx -scalar_mxM //.
 rewrite mul_scalar_mx; set pi := \sum_(_ < _) _; have pi0 : 0 < pi.
-  rewrite /pi (bigD1 (Ordinal (ltnW s1))) //= expr0 mulr1 ltr_paddr ?ltr01 //; apply: sumr_ge0 => k _; apply: ltW.
+  rewrite /pi (bigD1 (Ordinal (ltnW s1))) //= expr0 mulr1 ltr_wpDr ?ltr01 //; apply: sumr_ge0 => k _; apply: ltW.
   by case: (nat_of_ord k) => [|j]; rewrite !mulr_gt0 ?addr_gt0 ?exprn_gt0 ?ltr01.
 rewrite eqmx_scale ?gt_eqF // => /submxP[g e].
 have each k : (k < s)%N -> hv k = g *m ov k.
@@ -125,16 +125,16 @@ have oo : o *m o^T = (1 + a ^+ 2)%:M.
   by rewrite samples_dot big_ord_recl big_ord1 /ov !tr_scalar_mx -!scalar_mxM mulr1 -raddfD.
 have hh : h *m h^T = (1 + (a ^- 1) ^+ 2)%:M.
   by rewrite samples_dot big_ord_recl big_ord1 /hv /= !tr_scalar_mx -!scalar_mxM !mulr1 af' mulrNN -raddfD expr2.
-have one : 0 < 1 + a ^+ 2 by rewrite ltr_paddr ?sqr_ge0 ?ltr01.
-have one' : 0 < 1 + (a ^-1) ^+ 2 by rewrite ltr_paddr ?sqr_ge0 ?ltr01.
+have one : 0 < 1 + a ^+ 2 by rewrite ltr_wpDr ?sqr_ge0 ?ltr01.
+have one' : 0 < 1 + (a ^-1) ^+ 2 by rewrite ltr_wpDr ?sqr_ge0 ?ltr01.
 exists h, (c * (1 + a ^+ 2)), (1 + (a ^-1) ^+ 2); split=> //.
 - by rewrite mulmxDr -scalemxAr !mulmxA oh oo mul0mx add0r mul_scalar_mx scalerA.
 - by rewrite mulmxDr -scalemxAr !mulmxA ho hh mul0mx scaler0 addr0 mul_scalar_mx.
 - rewrite one' /=; have -> : 1 + (a ^-1) ^+ 2 = (a ^-1) ^+ 2 * (1 + a ^+ 2).
     by rewrite mulrDr mulr1 -exprMn mulVf // expr1n addrC.
-  rewrite ltr_pmul2r //; rewrite /c; have -> : q = q.-2.+2 by lia.
+  rewrite ltr_pM2r //; rewrite /c; have -> : q = q.-2.+2 by lia.
   rewrite !big_ord_recl /= expr0 mulr1 af' sqrrN.
-  rewrite ltr_addl ltr_paddr //; first by apply: sumr_ge0 => j _; apply: sqr_ge0.
+  rewrite ltrDl ltr_wpDr //; first by apply: sumr_ge0 => j _; apply: sqr_ge0.
   by rewrite lt_neqAle sqr_ge0 eq_sym sqrf_eq0 mulf_eq0 expf_eq0 (negPf a0) oppr_eq0 invr_eq0 (negPf a0).
 apply: contraTneq one' => h0; move: hh; rewrite h0 mul0mx => /matrixP/(_ 0 0); rewrite !mxE mulr1n => <-.
 by rewrite ltxx.

@@ -23,12 +23,11 @@ Qed.
 
 Lemma identity_modulo_unit (l : Z) : Z.lt 1 l -> (forall i j, Z.modulo (Q i j - (i == j)%:R) l = Z0) -> map_mx ratn Q \in unitmx.
 Proof.
-move=> l1 h; apply: unit_by_determinant; pose psi z : 'Z_(Z.to_nat l) := (int_of_Z z)%:~R.
-have psi_rmorphism : rmorphism psi by split=> [x y|]; [|split=> [x y|]]; rewrite /psi ?rmorphB ?rmorphM ?rmorph1.
-pose f := RMorphism psi_rmorphism.
+move=> l1 h; apply: unit_by_determinant.
+pose f := [the {rmorphism Z -> 'Z_(Z.to_nat l)} of intmul 1 \o int_of_Z].
 suff e : map_mx f Q = 1%:M by apply/eqP => /(congr1 f)/eqP; rewrite -det_map_mx e det1 rmorph0 oner_eq0.
 have l0 : f l = 0.
-  rewrite /= /psi; have -> : int_of_Z l = Z.to_nat l by lia.
+  rewrite /=; have -> : int_of_Z l = Z.to_nat l by lia.
   by rewrite -pmulrn char_Zp //; lia.
 apply/matrixP => i j; rewrite !mxE; have [z e] : exists z, Q i j = l * z + (i == j)%:R.
   by exists (Z.div (Q i j - (i == j)%:R) l); rewrite -[l * _](Z_div_exact_full_2 _ l _ (h i j)) ?subrK //; lia.

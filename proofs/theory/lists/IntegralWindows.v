@@ -50,7 +50,7 @@ have /fin_all_exists[M h] : forall i, exists f : 'I_(s * p) -> Z, forall j K, wi
 by exists (\matrix_(i, j) M i j) => K; apply/matrixP => i j; rewrite h [RHS]mxE [X in _ = _ X]mxE.
 Qed.
 
-Lemma number_injective : injective (number_rmorphism [fieldType of rat]).
+Lemma number_injective : injective (number_rmorphism (field_of rat)).
 Proof. by move=> x y /eqP; rewrite -subr_eq0 -rmorphB /= number_eq0 subr_eq0 => /eqP. Qed.
 
 Theorem rank_over_field (K : fieldType) : (\rank (window (over_field K n m p L) s) <= \rank (window (over_field ratF n m p L) s))%N.

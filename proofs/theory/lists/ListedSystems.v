@@ -20,7 +20,7 @@ Local Open Scope ring_scope.
 Lemma simulate_size L x vs : size (simulate L x vs) = size vs.
 Proof. by elim: vs x => //= v vs IH x; rewrite IH. Qed.
 
-Notation ratF := [fieldType of rat].
+Notation ratF := (field_of rat) (only parsing).
 Definition column k (u : vector) : 'cV[rat]_k := (vec ratF k u)^T.
 Definition columns p (c : seq vector) : seq 'cV[rat]_p := map (column p) c.
 

@@ -5,7 +5,7 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg ssrint rat matrix.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import CertificatesVocabulary.
+From faultspace Require Import Vocabulary CertificatesVocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -26,10 +26,11 @@ Variable (K : fieldType).
 Notation number := (number K).
 Notation vec := (vec K).
 
-Lemma number_is_rmorphism : rmorphism number.
-Proof. by split=> [x y|]; [|split=> [x y|]]; rewrite /number ?rmorphB ?rmorphM ?rmorph1. Qed.
-Canonical number_additive := Additive number_is_rmorphism.
-Canonical number_rmorphism := RMorphism number_is_rmorphism.
+Let composed := [the {rmorphism Z -> K} of @intmul K 1 \o int_of_Z].
+Canonical number_additive : {additive Z -> K}.
+Proof. by exists number; exact: (GRing.Additive.class composed). Defined.
+Canonical number_rmorphism : {rmorphism Z -> K}.
+Proof. by exists number; exact: (GRing.RMorphism.class composed). Defined.
 
 Definition mat a b (M : table) : 'M[K]_(a, b) := \matrix_(i < a) vec b (nth [::] M i).
 
@@ -77,5 +78,5 @@ Qed.
 
 End Meaning.
 
-Lemma number_eq0 z : (number [fieldType of rat] z == 0) = (z == Z0).
+Lemma number_eq0 z : (number (field_of rat) z == 0) = (z == Z0).
 Proof. by rewrite intr_eq0 -[RHS](inj_eq (can_inj int_of_ZK)). Qed.

@@ -5,14 +5,14 @@ From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum ssrint
   rat matrix mxalgebra.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import CertificatesVocabulary Lists Independence.
+From faultspace Require Import Vocabulary CertificatesVocabulary Lists Independence.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
 
 Section Ranks.
 Variable b : nat.
-Let ratF := [fieldType of rat].
+Let ratF := field_of rat.
 
 Lemma rank_by_pivots (us : pivoted) : all (fun u => u.1 < b)%N us ->
   map_mx ratn (\matrix_(i < size us, j < size us) entry (nth [::] (led us) i) j) \in unitmx ->

@@ -4,7 +4,7 @@
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum matrix
   mxalgebra zify.
 From faultspace Require Import Vocabulary Consistency Leads LimitsVocabulary WholeRange Controllable Regression.
-From faultspace Require Import MeansVocabulary Means MeanLimits Forgetting LongPast.
+From faultspace Require Import MeansVocabulary Means MeanLimits Forgetting LongPast OrderNames.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -215,7 +215,7 @@ have eR : R' = R + Rd.
     by rewrite /rest /differ /e mulmxBl mulmxBr [X in _ + X]addrACA -opprD addrA subrK.
   by apply: (covariance_ext isE).
 have tr0 i : 0 <= Rd i i by apply: square_positive dd.
-rewrite eR mxtraceD; split; first by rewrite ler_addl; apply: sumr_ge0 => i _; apply: tr0.
+rewrite eR mxtraceD; split; first by rewrite lerDl; apply: sumr_ge0 => i _; apply: tr0.
 move=> exciting obs /eqP; rewrite -subr_eq0 addrC addKr psumr_eq0 // => /allP z0.
 have null j : covariance E (fun t => differ t *m (delta_mx j 0 : 'cV_p)) (fun t => differ t *m (delta_mx j 0 : 'cV_p)) 0.
   have := covariance_images isE (delta_mx j 0 : 'cV_p) (delta_mx j 0 : 'cV_p) dd; rewrite (_ : _ *m _ = 0) //.

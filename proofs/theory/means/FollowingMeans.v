@@ -2,7 +2,7 @@
     never seen. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
 From faultspace Require Import Vocabulary FollowingFault Regression.
-From faultspace Require Import MeansVocabulary Means MeanLimits Forgetting LongPast PastStates WhiteMeans.
+From faultspace Require Import MeansVocabulary Means MeanLimits Forgetting LongPast PastStates WhiteMeans OrderNames.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -117,7 +117,7 @@ have tr0 : \tr R <= 0.
   by rewrite -out subrr mxE mul0r.
 have R0 i : R i i = 0.
   have ge j : 0 <= R j j := square_positive isE pos j hR.
-  apply/eqP; rewrite eq_le ge andbT; apply: le_trans tr0; rewrite /mxtrace (bigD1 i) //= ler_addl; by apply: sumr_ge0.
+  apply/eqP; rewrite eq_le ge andbT; apply: le_trans tr0; rewrite /mxtrace (bigD1 i) //= lerDl; by apply: sumr_ge0.
 pose e t := x' t - z t.
 have step_e t : e t.+1 = e t *m sysA S + u t *m d
   by rewrite /e driven' driven mulmxDr opprD addrACA mulmxBl; congr (_ + _); rewrite addrAC subrr add0r.

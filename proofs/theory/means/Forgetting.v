@@ -4,7 +4,7 @@
 
     combination h f == f(t) is a combination of h(t), ..., h(t+H-1), the same for all t *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum matrix.
-From faultspace Require Import MeansVocabulary Means.
+From faultspace Require Import MeansVocabulary Means OrderNames.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -111,7 +111,7 @@ move=> ff gg fg; have square c : 0 <= c * c * rf + (c * r + c * r) + rg.
   have := mean_add isE (mean_add isE (mean_scale isE (c * c) ff) (mean_add isE (mean_scale isE c fg) (mean_scale isE c fg))) gg.
   by apply: (mean_ext isE) => t; rewrite sqrrD exprMn !expr2 mulr2n -!mulrA.
 have plus := square 1; have minus := square (-1); rewrite mulrNN !mul1r !mulN1r in plus minus.
-apply: le_trans (_ : `|r + r| <= _); first by rewrite -mulr2n normrMn mulr2n ler_addl normr_ge0.
+apply: le_trans (_ : `|r + r| <= _); first by rewrite -mulr2n normrMn mulr2n lerDl normr_ge0.
 rewrite ler_norml -[X in X && _]subr_ge0 -[X in _ && X]subr_ge0 opprK; apply/andP; split.
   by rewrite addrA [r + r + _]addrC.
 by rewrite opprD addrAC.
@@ -125,8 +125,8 @@ Lemma covariance_bound a b k l (f : nat -> 'rV[K]_a) (g : nat -> 'rV[K]_b) Rf Rg
   covariance E (later k f) (later l g) R -> `|R i j| <= \tr Rf + \tr Rg.
 Proof.
 move=> ff gg fg; have tr c (h : nat -> 'rV_c) (C : 'M_c) o : covariance E h h C -> C o o <= \tr C.
-  by move=> hh; rewrite /mxtrace (bigD1 o) //= ler_addl; apply: sumr_ge0 => o' _; apply: square_positive hh.
-apply: le_trans (ler_add (tr _ _ _ i ff) (tr _ _ _ j gg)).
+  by move=> hh; rewrite /mxtrace (bigD1 o) //= lerDl; apply: sumr_ge0 => o' _; apply: square_positive hh.
+apply: le_trans (lerD (tr _ _ _ i ff) (tr _ _ _ j gg)).
 exact: product_bound (covariance_later isE k ff i i) (covariance_later isE l gg j j) (fg i j).
 Qed.
 
@@ -135,15 +135,15 @@ Lemma forgotten a n (A : 'M[K]_n) (C : 'M_(a, n)) bound : stable A ->
   (forall k, exists2 C', C = iter k (mulmxr A) C' & forall i j, `|C' i j| <= bound) -> C = 0.
 Proof.
 move=> st h; apply/matrixP=> i j; rewrite mxE; apply/eqP; apply: contraT; rewrite -normr_gt0 => pos_c.
-pose M := `|bound| *+ n + 1; have M0 : 0 < M by rewrite ltr_spaddr ?ltr01 // mulrn_wge0.
+pose M := `|bound| *+ n + 1; have M0 : 0 < M by rewrite ltr_pwDr ?ltr01 // mulrn_wge0.
 have [k small] := st _ (divr_gt0 pos_c M0); have [C' eC le] := h k.
 have power : C = C' *m iter k (mulmxr A) 1%:M.
   by rewrite eC; elim: (k) => [|l IH] /=; rewrite ?mulmx1 // IH mulmxA.
 have : `|C i j| <= \sum_(l < n) `|bound| * (`|C i j| / M).
   rewrite [X in X <= _](_ : _ = `|\sum_l C' i l * iter k (mulmxr A) 1%:M l j|); last by rewrite {1}power mxE.
   apply: le_trans (ler_norm_sum _ _ _) _; apply: ler_sum => l _; rewrite normrM.
-  by apply: ler_pmul => //; [apply: le_trans (le i l) _; apply: ler_norm|apply: ltW].
-rewrite sumr_const card_ord -mulrnAl mulrCA ler_pmulr // ler_pdivl_mulr // mul1r /M -subr_ge0 opprD addrA subrr add0r.
+  by apply: ler_pM => //; [apply: le_trans (le i l) _; apply: ler_norm|apply: ltW].
+rewrite sumr_const card_ord -mulrnAl mulrCA ler_pMr // ler_pdivlMr // mul1r /M -subr_ge0 opprD addrA subrr add0r.
 by rewrite oppr_ge0 ler10.
 Qed.
 

@@ -34,7 +34,7 @@ have [_ ->] := model (t + q).+1; have [_ ->] := model (t + q)%N; have [-> _] := 
 rewrite all_states no_feedthrough !mulmx0 !mulmx1 !addr0 mulmxDl mulmxBr !mulmxA.
 set a := x _ *m _; set b := u _ *m B; set f := v _ *m _; set g := _ *m D; set e := _ *m D *m _.
 have -> : a + b + f + g = a + (b + f + g) by rewrite !addrA.
-by rewrite opprD addrACA subrr add0r [b + f + g]addrAC addrAC [b + g - e]addrAC.
+by rewrite opprD addrACA subrr add0r [b + f + g]addrAC [b + g + f - e]addrAC [b + g - e]addrAC.
 Qed.
 
 Theorem seen_fault q s R L : limit E (fun t => row_mx (successive 0 q.+1 u t) (successive 0 q.+1 y t)) (successive q.+1 s.+2 u)

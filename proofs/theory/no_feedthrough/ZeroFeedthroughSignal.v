@@ -47,8 +47,8 @@ have cancel (c : 'M_1) : c *m v0 = 0 -> c = 0.
 have wE k : w k = - (w k.+1 *m phi *m v0) by apply/eqP; rewrite -addr_eq0; apply/eqP; exact: zero k.+1.
 have b0 : w 0%N *m phi = 0 by apply: cancel; apply: zero 0%N.
 have b k : w k *m phi = 0.
-  have [z|z] := eqVneq (v0 *m phi) 0; first by rewrite wE mulNmx -mulmxA z mulmx0 oppr0.
-  elim: k => // k /eqP; rewrite wE mulNmx oppr_eq0 -mulmxA => /eqP e.
+  have [z|z] := eqVneq (v0 *m phi) 0; first by rewrite wE mulNmx -(mulmxA (_ *m phi)) z mulmx0 oppr0.
+  elim: k => // k /eqP; rewrite wE mulNmx oppr_eq0 -(mulmxA (_ *m phi)) => /eqP e.
   move: e; rewrite [v0 *m phi]mx11_scalar mul_mx_scalar => /eqP; rewrite scaler_eq0 => /orP[/eqP e0|/eqP //].
   by case/negP: z; rewrite [v0 *m phi]mx11_scalar e0 raddf0.
 by move=> k; rewrite wE b mul0mx oppr0.

@@ -34,8 +34,9 @@ Qed.
 End GoodPairs.
 
 Theorem almost_every_pair (K : fieldType) n m p (S : system K n m p) s (Z : 'M_(zeta S + \rank (transfer S), n + p)) :
-  (lag S < s)%N -> spans_solutions S s Z -> row_free Z -> exists a b : 'M_(zeta S, zeta S + \rank (transfer S)),
-  let D P := \det (col_mx ('X *: map_mx polyC b - map_mx polyC a) (map_mx polyC P)) in
+  (lag S < s)%N -> spans_solutions S s Z -> row_free Z -> exists a b : 'M[K]_(zeta S, zeta S + \rank (transfer S)),
+  let D (P : 'M[K]_(\rank (transfer S), zeta S + \rank (transfer S))) : {poly K} :=
+    \det (col_mx ('X *: map_mx polyC b - map_mx polyC a) (map_mx polyC P)) in
   (forall P, (forall q, behavior (faults_of S (P *m Z)) q <-> behavior S q) <-> D P != 0) /\ exists P, D P != 0.
 Proof.
 case: s => // s long span free; have span_n : spans_solutions S n.+1 Z.
@@ -45,7 +46,8 @@ exists a, b; have good P := good_exceptional (ltnSn n) coords P; split=> //.
 by have [P /good nonzero] := good_pair_exists long span; exists P.
 Qed.
 
-Theorem determinant_of_pair (K : fieldType) n m p (S : system K n m p) s r e (Z : 'M_(e + r, n + p)) U a b (P : 'M_(r, e + r)) :
+Theorem determinant_of_pair (K : fieldType) n m p (S : system K n m p) s r e (Z : 'M_(e + r, n + p)) (U : 'M_(e, n))
+    (a b : 'M_(e, e + r)) (P : 'M_(r, e + r)) :
   (n < s)%N -> spans_solutions S s Z /\ row_free Z -> row_free U -> (U :=: zero_states S)%MS ->
   a *m Z = row_mx (U *m sysA S) (U *m sysC S) -> b *m Z = row_mx U (0 : 'M_(e, p)) ->
   let D := exceptional_polynomial a b P in

@@ -6,7 +6,7 @@
     infinite_dynamics S Z L N == the rows of Z are a basis of S*, and a Z is reached from a N Z by the faults a L, silently *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg poly polydiv matrix mxalgebra
   mxpoly.
-From faultspace Require Import Vocabulary Basics Chain Minors FiniteZeros SilentSubspaces.
+From faultspace Require Import Vocabulary Basics Chain Minors FiniteZeros SilentSubspaces MorphismNames.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -150,7 +150,7 @@ have [|divides [g g0 [C e]]] := det_attained_in_0 freeE freeZ silent_rows_at_inf
     by exists (lsubmx y), (rsubmx y).
   by have [-> ->] := step_unique xZ bE f; rewrite -mulmxA -mul_mx_row submxMl.
 have detE : \det (- char_poly_mx N) = (-1) ^+ d *: 'X^d.
-  by rewrite -scaleN1r detZ -/(char_poly N) (char_poly_nilpotent nilpotent) -mul_polyC rmorphX rmorphN1.
+  by rewrite -scaleN1r detZ -/(char_poly N) (char_poly_nilpotent nilpotent) -mul_polyC rmorphXn rmorphN1.
 have sign0 : (-1) ^+ d != 0 :> K by rewrite signr_eq0.
 split; first by move=> f; have := divides f; rewrite detE dvdpZl.
 by exists ((-1) ^+ d *: g); [rewrite rootZ | exists C; rewrite e detE -scalerAr scalerAl].

@@ -17,7 +17,7 @@ apply/eqP; rewrite eqn_leq; apply/andP; split; last first.
     move: few; rewrite ltnNge (@minor_rank _ _ _ _ _ h f) // /over_fractions -map_mxsub det_map_mx tofrac_eq0.
     exact: d0.
   by rewrite ltnn.
-pose g := [rmorphism of @FracField.tofrac [idomainType of {poly K}] \o @polyC K]; pose t : {fraction {poly K}} := tofrac 'X.
+pose g := [the {rmorphism _ -> _} of @FracField.tofrac _ \o @polyC K]; pose t : {fraction {poly K}} := tofrac 'X.
 have t0 : t != 0 by rewrite tofrac_eq0 polyX_eq0.
 have -> : over_fractions (pencil_at_infinity S) = pencil_at S g t^-1 *m block_mx t%:M 0 0 1%:M.
   rewrite /pencil_at mulmx_block !mulmx0 !mulmx1 !addr0 !add0r !mul_mx_scalar scalerBr scale_scalar_mx mulfV // scalerN.

@@ -67,8 +67,7 @@ Proof. exact: map_row_mx. Qed.
 
 Lemma coefm_horner a (f : nat -> 'rV[K]_a) l k : coefm k (horner_states f l) = if (k <= l)%N then f (l - k)%N else 0.
 Proof.
-elim: l k => [|l IH] [|k] /=; rewrite ?coefm_const //; rewrite coefmD coefmX coefm_const ?add0r ?addr0 //.
-by rewrite IH subSS.
+by elim: l k => [|l IH] [|k] /=; rewrite ?coefm_const //; rewrite coefmD coefmX coefm_const ?add0r ?addr0 ?IH ?subSS.
 Qed.
 
 Lemma loop_kernel s (u : 'rV[K]_(s * m)) : (u <= loops s)%MS -> (as_polynomial u)^T *m pencil S = 0.
@@ -119,7 +118,7 @@ have sup (u : 'rV_(s * m)) : (u <= loops s)%MS -> (u <= row_base (loops s))%MS b
 move: (row_base _) free sub sup => U free sub sup.
 split; [|exact: sizem_as_polynomial|move=> y].
   apply/matrixP => i j; suff /matrixP/(_ i 0) : col j ((pencil S)^T *m as_polynomial U) = 0 by rewrite mxE => ->; rewrite !mxE.
-  by rewrite colE -(map_delta_mx (@polyC_rmorphism K)) -mulmxA as_polynomial_mul tr_ker loop_kernel ?trmx0.
+  by rewrite colE -(map_delta_mx [the {rmorphism _ -> _} of @polyC K]) -mulmxA as_polynomial_mul tr_ker loop_kernel ?trmx0.
 rewrite tr_ker => /(congr1 trmx); rewrite trmxK trmx0 => ker size_y.
 have [u u_loop ->] := kernel_loop ker size_y; have /submxP[a ua] := sup _ u_loop.
 exists a^T; split=> [|a']; rewrite as_polynomial_mul ?trmxK -?ua // => /as_polynomial_inj.

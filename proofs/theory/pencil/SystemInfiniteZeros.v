@@ -6,7 +6,7 @@
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly polydiv matrix
   mxalgebra mxpoly vector zify.
 From faultspace Require Import Vocabulary Chain Indices SilentSubspaces RightIndices.
-From faultspace Require Import InfiniteZeros MinorsOfOrder SystemZeros SystemZeroPolynomial.
+From faultspace Require Import InfiniteZeros MinorsOfOrder SystemZeros SystemZeroPolynomial MorphismNames.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -177,7 +177,7 @@ have in_0 (y : 'rV_(n + m)) : (y *m at0 (pencil_at_infinity S) <= row_mx (col_mx
 have divides := det_divides_highest_minors E_free_at_infinity rows.
 have := highest_minor_in_0 E_free_at_infinity freeZ rows left in_0; rewrite order in divides *.
 have detE : \det (- char_poly_mx N) = (-1) ^+ d *: 'X^d.
-  by rewrite -scaleN1r detZ -/(char_poly N) (char_poly_nilpotent nilpotent_at_infinity) -mul_polyC rmorphX rmorphN1.
+  by rewrite -scaleN1r detZ -/(char_poly N) (char_poly_nilpotent nilpotent_at_infinity) -mul_polyC rmorphXn rmorphN1.
 have sign0 : (-1) ^+ d != 0 :> K by rewrite signr_eq0.
 rewrite detE in divides *; move=> [g g0 [B0 [C0 e]]] k; split=> [/divides_minors_of_order_det/(_ B0 C0) | kd h f].
   rewrite e -scalerAr dvdpZr // Gauss_dvdpr; last by rewrite coprimep_expl // coprimep_sym -['X]subr0 -polyC0 coprimep_XsubC.

@@ -263,7 +263,7 @@ Qed.
 (** At the generic point. *)
 Lemma rank_pairs : (\rank R + d + (n + m - \rank E) = n + gap S n)%N.
 Proof.
-pose g := [rmorphism of @FracField.tofrac [idomainType of {poly K}] \o @polyC K].
+pose g := [the {rmorphism _ -> _} of @FracField.tofrac _ \o @polyC K].
 have := pencil_rank_pairs g (FracField.tofrac 'X).
 have -> : pencil_at S g (FracField.tofrac 'X) = over_fractions (pencil S).
   rewrite /over_fractions /pencil map_block_mx map_mxN map_mxB map_scalar_mx -!map_mx_comp; reflexivity.

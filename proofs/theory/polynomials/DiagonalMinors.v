@@ -114,12 +114,15 @@ Qed.
 Lemma rank_diagonal : \rank (over_fractions P) = size places.
 Proof.
 have rank_D : \rank (over_fractions P) = \rank (over_fractions D).
-  have unit_U : over_fractions U \in unitmx.
-    by have /mulmx1_unit[] : over_fractions U *m over_fractions U' = 1%:M by rewrite /over_fractions -map_mxM UU map_mx1.
-  have unit_V : over_fractions V \in unitmx.
-    by have /mulmx1_unit[] : over_fractions V *m over_fractions V' = 1%:M by rewrite /over_fractions -map_mxM VV map_mx1.
-  rewrite -diagonal /over_fractions !map_mxM -/(over_fractions _) mxrankMfree ?row_free_unit //.
-  by rewrite eqmxMfull ?row_full_unit.
+  have unit d (Q Q' : 'M[{poly K}]_d) : Q *m Q' = 1%:M -> row_free (over_fractions Q) /\ row_full (over_fractions Q).
+    move=> e; have u : over_fractions Q \in unitmx.
+      apply: (proj1 (mulmx1_unit (_ : over_fractions Q *m over_fractions Q' = 1%:M))).
+      by rewrite /over_fractions -map_mxM e map_mx1.
+    by rewrite row_free_unit row_full_unit; split; exact: u.
+  have -> : over_fractions D = over_fractions U *m over_fractions P *m over_fractions V.
+    by rewrite -diagonal /over_fractions !map_mxM.
+  rewrite mxrankMfree; last exact: (unit _ _ _ VV).1.
+  rewrite eqmxMfull; [reflexivity|exact: (unit _ _ _ UU).2].
 apply/eqP; rewrite rank_D eqn_leq; apply/andP; split.
   pose E : 'M[{poly K}]_(a, size places) := \matrix_(i, k) (nat_of_ord i == nth 0%N places k)%:R.
   pose G : 'M[{poly K}]_(size places, b) := \matrix_(k, j) if nth 0%N places k == j then f j else 0.

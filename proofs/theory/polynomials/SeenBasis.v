@@ -56,7 +56,7 @@ Proof.
 move=> My; exists (B *m y).
 have rank_Y : \rank (over Y) = k.
   have BY' : over B *m over Y = 1%:M by rewrite /over_fractions -map_mxM inverse map_mx1.
-  by apply/eqP; rewrite eqn_leq rank_leq_col -[X in (X <= _)%N](mxrank1 [fieldType of {fraction {poly K}}]) -BY' mxrankM_maxr.
+  by apply/eqP; rewrite eqn_leq rank_leq_col -[X in (X <= _)%N](mxrank1 (field_of {fraction {poly K}})) -BY' mxrankM_maxr.
 have kernel_is : ((over y)^T <= (over Y)^T)%MS.
   have sub : ((over Y)^T <= kermx (over M)^T)%MS by apply/sub_kermxP; rewrite -trmx_mul -map_mxM kernel map_mx0 trmx0.
   have := mxrank_leqif_sup sub; rewrite !mxrank_tr rank_Y mxrank_ker mxrank_tr => eq.

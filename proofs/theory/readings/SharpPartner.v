@@ -169,7 +169,7 @@ Qed.
 Lemma beside_delay_left_invertible : left_invertible S.
 Proof.
 move=> v silent; apply: (double_delay_left_invertible (K := K)) => k.
-by have := silent k; rewrite beside_delay_output linear0 -row_mx0 => /eq_row_mx[].
+by have := silent k; rewrite beside_delay_output linear0 => /eqP; rewrite row_mx_eq0 => /andP[/eqP].
 Qed.
 
 (** On two samples, only the initial state is seen: three dimensions. *)

@@ -53,18 +53,18 @@ Definition entry (u : vector) (j : nat) : Z := nth Z0 u j.
 (** An integer in a field, and a list as a row vector of k entries. *)
 Definition number (K : fieldType) (z : Z) : K := (int_of_Z z)%:~R.
 Definition vec (K : fieldType) k (u : vector) : 'rV[K]_k := \row_j number K (entry u j).
-Notation ratn := (number [fieldType of rat]).
+Notation ratn := (number (field_of rat)) (only parsing).
 
 (** A table over the denominator e, as a matrix. *)
 Definition fraction (e : Z) a b (M : table) : 'M[rat]_(a, b) := \matrix_(i, j) (ratn (entry (nth [::] M i) j) / ratn e).
 
 (** The tables of A, F, C, G over one denominator, and the system with n states, m faults and p outputs that they mean. *)
 Record listed := Listed { den : Z; lA : table; lF : table; lC : table; lG : table }.
-Definition meant n m p (L : listed) : system [fieldType of rat] n m p :=
+Definition meant n m p (L : listed) : system (field_of rat) n m p :=
   System (fraction (den L) n n (lA L)) (fraction (den L) m n (lF L)) (fraction (den L) n p (lC L)) (fraction (den L) m p (lG L)).
 
 (** A vector of integers over the denominator d: of a recorded trajectory. *)
-Definition recorded (d : Z) k (u : vector) : 'rV[rat]_k := (ratn d)^-1 *: vec [fieldType of rat] k u.
+Definition recorded (d : Z) k (u : vector) : 'rV[rat]_k := (ratn d)^-1 *: vec (field_of rat) k u.
 
 (** ** The checks: arithmetic on lists *)
 
@@ -287,7 +287,7 @@ Definition check_window_equality n m n' m' p s l (first second : listed) rows ws
   [&& shorter s rows, meets n m p s l first rows (inl ws) & meets n' m' p s l second rows (inl ws')].
 
 (** The row c over the outputs of a word, times a power of the denominator; a word of the first that a row of the second denies. *)
-Definition pairing (e : Z) (c outputs : seq vector) : Z := foldr Z.add Z0 [seq dot pair.1 pair.2 | pair <- zip outputs (weighted e c).2].
+Definition pairing (e : Z) (c outputs : seq vector) : Z := foldr Z.add Z0 [seq dot uv.1 uv.2 | uv <- zip outputs (weighted e c).2].
 Definition check_difference n m n' m' p s (first second : listed) x vs c : bool :=
   [&& well_formed n m p first, well_formed n' m' p second, annihilated second c, (0 < size c <= s)%N & size vs == s]
   && [&& all (fun r => size r <= p)%N (simulate first x vs) & pairing (den first) c (simulate first x vs) != Z0].

@@ -67,7 +67,7 @@ End Process.
 
 (** The experiment is stable: where without noise the states are z times what they were, not all zero, z lies inside the unit circle. So are
     the eigenvalues of A, and the roots of the denominators of the filter, as far as they are poles of it. *)
-Definition stable_experiment (C : numClosedFieldType) n m p nu c (E : experiment [fieldType of C] n m p nu c) :=
+Definition stable_experiment (C : numClosedFieldType) n m p nu c (E : experiment C n m p nu c) :=
   forall (z : C) (x : 'rV_n) (s : nat -> 'rV_(nu + (m + p))), follow E 0 x s (z *: x) (fun i => z *: s i) ->
   x != 0 \/ (exists2 i, (i < memory E)%N & s i != 0) -> `|z| < 1.
 

@@ -59,7 +59,7 @@ Record means (R : arithmetic) (K : fieldType) (value : numeral R -> K) : Prop :=
 (** Integers modulo l. They mean what integers mean in a field where l is zero: the field with l elements, where l is a prime, and those
     that contain it. *)
 Definition residues (l : Z) : arithmetic :=
-  @Arithmetic [eqType of Z] Z0 (Zpos xH) (fun a b => Z.modulo (Z.add a b) l) (fun a b => Z.modulo (Z.sub a b) l)
+  @Arithmetic _ Z0 (Zpos xH) (fun a b => Z.modulo (Z.add a b) l) (fun a b => Z.modulo (Z.sub a b) l)
     (fun a b => Z.modulo (Z.mul a b) l) (inverse_modulo l) (fun a => Z.eqb (Z.modulo a l) Z0).
 
 (** Rational numbers as pairs of integers, numerator and denominator, in lowest terms; a pair whose denominator is zero stands for zero. *)
@@ -96,7 +96,7 @@ Fixpoint polynomial_euclid (fuel : nat) (f b u c v : rational_polynomial) : rati
 (** Rational polynomials in a root of f, which has the leading coefficient 1. They mean their values at a root of f in any field of
     characteristic 0; where f is irreducible, the field that the root generates is Q(a). *)
 Definition algebraic (f : rational_polynomial) : arithmetic :=
-  @Arithmetic [eqType of rational_polynomial] [::] [:: (Zpos xH, Zpos xH)] (fun u v => trimmed (polynomial_plus u v)) polynomial_minus
+  @Arithmetic _ ([::] : rational_polynomial) [:: (Zpos xH, Zpos xH)] (fun u v => trimmed (polynomial_plus u v)) polynomial_minus
     (polynomial_mult f) (fun u => polynomial_euclid (6 * size f) f f [::] u [:: (Zpos xH, Zpos xH)]) (all (fun c => Z.eqb c.1 Z0)).
 
 (** ** What lists of numbers mean *)
@@ -248,7 +248,7 @@ Definition are_equal_on n m n' m' p s L L' rows Q ws ws' : bool :=
   [&& within s rows, all_there_are n m p s L rows Q ws & all_there_are n' m' p s L' rows Q ws'].
 
 (** The row c over the outputs of a word: a word of the first that a row of the second denies. *)
-Definition paired (c rs : table) : num := foldr (@plus R) (zero R) [seq inner pair.1 pair.2 | pair <- zip rs c].
+Definition paired (c rs : table) : num := foldr (@plus R) (zero R) [seq inner uv.1 uv.2 | uv <- zip rs c].
 Definition differ n m n' m' p s L L' x vs c : bool :=
   [&& sized n m p L, sized n' m' p L', annihilating L' c, (0 < size c <= s)%N & size vs == s]
   && [&& all (fun r => size r <= p)%N (outputs L x vs) & invertible (paired c (outputs L x vs))].
@@ -307,7 +307,7 @@ End Checks.
 Fixpoint convolved (R : arithmetic) (u v : seq (numeral R)) : seq (numeral R) :=
   if u is a :: u' then sum (multiple a v) (zero R :: convolved u' v) else [::].
 Definition polynomials (R : arithmetic) : arithmetic :=
-  @Arithmetic [eqType of seq (numeral R)] [::] [:: one R] (@sum R) (fun u v => sum u (multiple (minus (zero R) (one R)) v)) (@convolved R)
+  @Arithmetic _ ([::] : seq (numeral R)) [:: one R] (@sum R) (fun u v => sum u (multiple (minus (zero R) (one R)) v)) (@convolved R)
     id (@blank R).
 Definition polynomial_of (R : arithmetic) (K : fieldType) (value : numeral R -> K) (u : seq (numeral R)) : {poly K} :=
   \poly_(i < size u) value (at_place u i).

@@ -45,6 +45,9 @@ Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive
 Import GRing.Theory.
 Local Open Scope ring_scope.
 
+(** A type that MathComp knows as a field, as that field. *)
+Notation field_of T := ltac:(let K := eval cbv beta iota delta [TheCanonical.get] in [the fieldType of T : Type] in exact K) (only parsing).
+
 (** ** Systems and what they can do *)
 
 Section Systems.

@@ -152,7 +152,7 @@ have e : r - Uf *m c = \sum_(j < q + s) u (t - q + j)%N *m gamma j.
     rewrite -{1}[(t - q)%N]add0n big_addn subKn // big_mkord; apply: eq_bigr => j _.
     by rewrite /gamma ltn_ord addnC.
   rewrite /Uf (future_sum t s u) mulmx_suml -sumrN; apply: eq_bigr => j _.
-  by rewrite /gamma ltnNge leq_addr /= addKn valK addnA subnK // mulmxN mulmxA.
+  by rewrite /gamma ltnNge leq_addr /= addKn valK addnA subnK // mulmxN; congr (- _); exact: esym (mulmxA _ _ _).
 have zero : forall j, (j < q + s)%N -> gamma j = 0.
   apply: independent_inputs => i /andP[qi its]; rewrite -e; have [it|ti] := ltnP i t.
     by apply: (cov_future_zero Zr); rewrite subnK // qi.
