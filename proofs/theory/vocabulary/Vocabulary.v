@@ -8,6 +8,7 @@
 
     Nothing is assumed: any field K, any n states, m faults, p outputs, zero included. README.md says what each word is in the paper.
 
+                                              field_of T == a type that MathComp knows as a field, as that field
                           system, sysA, sysF, sysC, sysG == a system with n states, m faults and p outputs: A, F, C, G
                                            state, output == x(k) and r(k) from an initial state under faults
                                           word, behavior == the sequences that are possible for s samples, and for ever
