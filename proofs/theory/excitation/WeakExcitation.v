@@ -1,7 +1,8 @@
 (** What the data must excite. It is enough that the rows of [X V_s] contain, or are, the pairs of a state in U and of s faults, where A
-    leaves U in place and U contains the rows of F: then problem (11) computed from the data is right from s = n + 1 on (or from one
-    past the last change of the gap), and so is the gap of a left-invertible system from lag on. So a mode that the faults never reach
-    and that x(0) does not excite changes neither. Persistency of excitation of v, of order n + s, is enough.
+    leaves U in place and U contains the rows of F: then problem (11) computed from the data is right from s = n + 1 on (or from one past
+    the last change of the gap), and so, with s + 1 for s, is the gap of a left-invertible system from lag on. So a mode that the faults
+    never reach and that x(0) does not excite changes neither. Persistency of excitation of v is enough, of order n + s for problem (11),
+    of order n + s + 1 for the gap.
 
     pairs_from U s == all pairs of a state in U and of s faults *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.

@@ -1,5 +1,5 @@
-(** B and D under two-sided exogeneity, u of any colour: with the true A and C, MOESP's regression for B and D has residual zero, and it is
-    zero for no other B and D, if the window is not empty and (A, C) is observable on one sample less than it has. *)
+(** B and D under two-sided exogeneity, u of any colour: with the true A and C, MOESP's regression for B and D has residual zero, and it
+    is zero for no other B and D, if u excites, the window is not empty and (A, C) is observable on one sample less than it has. *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
   zify.
 From faultspace Require Import Vocabulary Basics Windows WindowBlocks Consistency.

@@ -1,7 +1,7 @@
-(** Faults that no data can tell from another B and D, u of any colour. v(k) = u(k) Phi acts as B + Phi F, D + Phi G. Without
-    feedthrough of the fault, v(k) = u(k+1) Phi acts as B + Phi F A, D + Phi F C with the state x(k) - u(k) Phi F. So the limit of
-    subspace identification is a product with O_s still, A and C are as right as without a fault, and the regression for B and D gives
-    these.
+(** Faults that no data can tell from another B and D, u of any colour. v(k) = u(k) Phi acts as B + Phi F, D + Phi G. Without feedthrough
+    of the fault, v(k) = u(k+1) Phi acts as B + Phi F A, D + Phi F C with the state x(k) - u(k) Phi F. So the limit of subspace
+    identification is a product with O_s still, A and C are as right as they would be without a fault and with that B, and the regression
+    for B and D gives these.
 
     with_memory == S without faults, with states more that remember u(k-1) and act as the fault u(k-1) Phi *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.

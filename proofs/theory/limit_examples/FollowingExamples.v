@@ -1,7 +1,7 @@
-(** A fault that follows a white input, one state, input, fault and output: x(k+1) = a x(k) + u(k) + f v(k), y = x, v(k) = u(k-1). For a and
-    f positive no singular vector of the limit of PI-MOESP spans the range of O_s, so A and C are wrong. For a f = -(1 + a^2), two samples
-    and three past inputs or more, the leading one does span it, and the regression gives B and D: all right, although the limit is
-    of rank 2. *)
+(** A fault that follows a white input, one state, input, fault and output: x(k+1) = a x(k) + u(k) + f v(k), y = x, v(k) = u(k-1). For a
+    and f positive and two samples or more no singular vector of the limit of PI-MOESP spans the range of O_s, so A and C are wrong. For a
+    f = -(1 + a^2), two samples and three past inputs or more, the leading one does span it, and the regression gives B and D: all right,
+    although the limit is of rank 2. *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum matrix
   mxalgebra zify.
 From faultspace Require Import Vocabulary Windows Places Signals Consistency Leads Regression Undetectable FollowingFault OrderNames.

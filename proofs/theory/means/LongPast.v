@@ -1,8 +1,8 @@
-(** All of the range of O_s, the input of any rational spectrum, with n + r past inputs, r the order of its spectrum. A direction w of the
-    state that the limit does not see makes zeta, which is z w less a combination of the s future inputs, uncorrelated with the q past
-    inputs and the future ones; z is what the inputs make of the state. The covariances of zeta with inputs satisfy a difference equation of
-    order n + r, so it is uncorrelated with all past inputs, hence with z and with itself: zeta is zero in mean square. The characteristic
-    polynomial of A then leaves a relation among n + s successive inputs, which are independent. *)
+(** All of the range of O_s where (A, B) is controllable, an input of rational spectrum of any order r, with n + r past inputs.
+    A direction w of the state that the limit does not see makes zeta, which is z w less a combination of the s future inputs,
+    uncorrelated with the q past inputs and the future ones; z is what the inputs make of the state. The covariances of zeta with inputs
+    satisfy a difference equation of order n + r, so it is uncorrelated with all past inputs, hence with z and with itself: zeta is zero
+    in mean square. The characteristic polynomial of A then leaves a relation among n + s successive inputs, which are independent. *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg poly ssrnum
   matrix zify.
 From faultspace Require Import Vocabulary Places Consistency Reachable WholeRange.

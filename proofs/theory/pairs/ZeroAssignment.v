@@ -1,6 +1,6 @@
-(** zero-assignment: with (A, C) observable and a fault, every polynomial of degree at most zeta is the exceptional polynomial of some P:
-    pairs place their finite zeros at will, and one has none. By PencilAssignment.v; the pencil q b - a has a right inverse, as that of
-    (A, C) alone has. *)
+(** zero-assignment: with (A, C) observable and a normal rank of 1 at least, every polynomial of degree at most zeta is the exceptional
+    polynomial of some P: pairs place their finite zeros at will, and one has none. By PencilAssignment.v; the pencil q b - a has a right
+    inverse, as that of (A, C) alone has. *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly polydiv matrix
   mxalgebra.
 From faultspace Require Import Vocabulary Basics Windows Trajectory Minors FiniteZeros ExceptionalPolynomial.

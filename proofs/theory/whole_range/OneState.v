@@ -1,7 +1,7 @@
-(** One state and an input of any colour: the limit of PI-MOESP has all of the range of O_s as soon as B is not zero. Otherwise what the
-    inputs have made of the state, z, would be a combination of the s future inputs up to an error that the input before them knows nothing
-    of. From one time to the next the error is multiplied by the pole, up to a combination of these s + 1 inputs, with which it is
-    uncorrelated; it is stationary, so it is zero; and then the inputs are linearly dependent, or B is zero. *)
+(** One state, A stable and all stationary, and an input of any colour: the limit of PI-MOESP has all of the range of O_s as soon as B is
+    not zero. Otherwise what the inputs have made of the state, z, would be a combination of the s future inputs up to an error that the
+    input before them knows nothing of. From one time to the next the error is multiplied by the pole, up to a combination of these s + 1
+    inputs, with which it is uncorrelated; it is stationary, so it is zero; and then the inputs are linearly dependent, or B is zero. *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum matrix
   mxalgebra zify.
 From faultspace Require Import Vocabulary Places Signals Consistency LimitsVocabulary WholeRange.
