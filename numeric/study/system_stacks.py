@@ -4,7 +4,7 @@
     study_systems   the systems that `study_system` makes of these seeds, each from its own seed
 
 One call of LAPACK for a matrix of five rows takes less time than Python takes to make it, so that a stack is drawn in a third of the time
-of its systems. The steps are those of `systems`, on the same numbers, so that draws and singular vectors are the same to the last bit. Only
+of its systems. The steps are those of `systems`, on the same numbers, so that systems are the same up to rounding. Only
 the check that there are no other zeros is another one: eigenvalues and eigenvectors of the compressed pencil in place of singular values at
 each eigenvalue. It accepts what is far from doubt, and whatever it does not accept is drawn anew by `study_system`.
 """
@@ -93,7 +93,8 @@ def _with_zeros(
     solutions = right[:, rank:].swapaxes(1, 2)
     basis, sizes, turned = np.linalg.svd(solutions[:, :height], full_matrices=False)
     sure &= sizes[:, -1] > 1e-8 * sizes[:, 0]
-    draws = basis.swapaxes(1, 2) @ np.array([rng.standard_normal(height) for rng in generators])[:, :, np.newaxis]
+    rows = np.ascontiguousarray(basis.swapaxes(1, 2))
+    draws = rows @ np.array([rng.standard_normal(height) for rng in generators])[:, :, np.newaxis]
     columns = (basis @ draws).reshape(k, N_V, n + p).swapaxes(1, 2)
     coefficients = turned.swapaxes(1, 2) @ (draws / np.maximum(sizes, EPS)[:, :, np.newaxis])
     states = (solutions[:, height:] @ coefficients).reshape(k, count, n).swapaxes(1, 2)

@@ -129,7 +129,7 @@ def with_zeros(
     # that is the same with every processor; coefficients in the basis would not be, for rounding decides which basis LAPACK finds.
     basis, sizes, right = np.linalg.svd(solutions[:height], full_matrices=False)
     kept = sizes > 1e-10 * sizes[0]
-    draw = basis[:, kept].T @ rng.standard_normal(height)
+    draw = np.ascontiguousarray(basis[:, kept].T) @ rng.standard_normal(height)
     columns = (basis[:, kept] @ draw).reshape(n_v, n + p).T
     states = (solutions[height:] @ (right[kept].T @ (draw / sizes[kept]))).reshape(count, n).T
     return columns[:n], columns[n:], states

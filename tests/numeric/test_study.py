@@ -126,7 +126,8 @@ def test_vacuous_cases_are_those_without_a_null_row_and_only_those() -> None:
 
 def test_all_studies_see_the_same_systems_and_beat_a_random_subspace() -> None:
     studies = [monte_carlo(plan, systems=8 if THOROUGH else 4, seed=2, jobs=1) for plan in STUDIES.values()]
-    assert len({tuple(case.zeros for case in study.cases) for study in studies}) == 1
+    # Stacks of systems are those of one system after the other up to rounding.
+    assert len({tuple(tuple(np.round(case.zeros, 9)) for case in study.cases) for study in studies}) == 1
     for study in studies:
         found = [study.error(case) for case in study.cases if not case.vacuous]
         random = [study.random_error(case) for case in study.cases if not case.vacuous]
