@@ -8,8 +8,6 @@ import shutil
 import subprocess
 import sys
 import tomllib
-from importlib.machinery import SourceFileLoader
-from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
 from types import ModuleType
 
@@ -18,6 +16,7 @@ import pytest
 import faultspace
 
 from .import_graph import ROOT
+from .scripts import script
 
 PROGRAMS = Path(sys.executable).parent
 PYTHON = Path(sys.executable).name
@@ -25,14 +24,8 @@ PYTHON = Path(sys.executable).name
 
 @pytest.fixture(scope="module")
 def release() -> ModuleType:
-    """Return .ci/release, which is a script without an ending."""
-    loader = SourceFileLoader("release", str(ROOT / ".ci" / "release"))
-    spec = spec_from_loader("release", loader)
-    assert spec is not None
-    module = module_from_spec(spec)
-    sys.modules["release"] = module  # records ask for their module
-    loader.exec_module(module)
-    return module
+    """Return the script .ci/release as a module."""
+    return script("release")
 
 
 def test_a_step_that_does_as_it_has_to_is_measured(release: ModuleType, tmp_path: Path) -> None:

@@ -2,28 +2,20 @@
 
 from __future__ import annotations
 
-import sys
-from importlib.machinery import SourceFileLoader
-from importlib.util import module_from_spec, spec_from_loader
 from types import ModuleType
 
 import pytest
 
 from .import_graph import ROOT
+from .scripts import script
 
 OLDER = "**This page is older than `.ci/versions`**"
 
 
 @pytest.fixture(scope="module")
 def versions() -> ModuleType:
-    """Return .ci/versions, which is a script without an ending."""
-    loader = SourceFileLoader("versions", str(ROOT / ".ci" / "versions"))
-    spec = spec_from_loader("versions", loader)
-    assert spec is not None
-    module = module_from_spec(spec)
-    sys.modules["versions"] = module  # records ask for their module
-    loader.exec_module(module)
-    return module
+    """Return the script .ci/versions as a module."""
+    return script("versions")
 
 
 def tells_all(versions: ModuleType, page: str) -> bool:
