@@ -6,6 +6,7 @@ import json
 import os
 import shutil
 import stat
+from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
@@ -108,6 +109,47 @@ def test_the_second_checker_finds_what_is_assumed(cache: Path, assumed: str, rea
     theory = rocq_build.compiled_theory(texts={"First.v": f"{assumed}\n{TINY['First.v']}"})
     with pytest.raises(rocq_build.NotProved, match=reason):
         second_check(theory)
+
+
+SUMMARY = """
+CONTEXT SUMMARY
+===============
+
+* Theory: Set is predicative
+
+* Axioms:{}
+
+* Constants/Inductives relying on type-in-type:{}
+
+* Constants/Inductives relying on unsafe (co)fixpoints: <none>
+
+* Inductives whose positivity is assumed: <none>
+"""
+KERNELS_OWN = "\n    Coq.Numbers.Cyclic.Int63.PrimInt63.compares\n    Coq.Strings.PrimString.string\n  "
+
+
+@pytest.mark.parametrize(
+    ("axioms", "in_type", "reason"),
+    [
+        (" <none>", " <none>", ""),
+        (KERNELS_OWN, " <none>", ""),
+        (f"{KERNELS_OWN}  faultspace.First.absurd\n", " <none>", "Axioms: faultspace.First.absurd$"),
+        ("\n    faultspace.Coq.Strings.PrimString.absurd\n", " <none>", r"Axioms: faultspace.Coq.Strings.PrimString.absurd$"),
+        ("\n    Coq.Numbers.Cyclic.Int63.Uint63Axioms.absurd\n", " <none>", r"Axioms: Coq.Numbers.Cyclic.Int63.Uint63Axioms.absurd$"),
+        (" <none>", KERNELS_OWN, "type-in-type: Coq.Numbers"),
+        ("", " <none>", "Axioms: nothing was printed"),
+    ],
+)
+def test_only_what_the_kernel_computes_with_may_be_listed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, axioms: str, in_type: str, reason: str
+) -> None:
+    """With MathComp 2, coqchk lists operations of the kernel with the axioms; it lists nothing else of a theory that rests on nothing."""
+    checker = tmp_path / "coqchk"
+    checker.write_text(f"#!/bin/sh\ncat >&2 <<'END'\n{SUMMARY.format(axioms, in_type)}END\n", "utf-8")
+    checker.chmod(0o755)
+    monkeypatch.setattr(shutil, "which", lambda name: str(checker))
+    with pytest.raises(rocq_build.NotProved, match=reason) if reason else nullcontext():
+        second_check(tmp_path)
 
 
 @pytest.mark.skipif(rocq_build.found() is None or COQCHK is None, reason=rocq_build.INSTALL)
