@@ -20,7 +20,7 @@ from .brought.instances import meeting
 from .brought.readings import readings
 from .hypotheses import ablations
 from .rocq.premises import Examples, Instance, examples, instances, parts, words
-from .rocq.sources import paths, sources
+from .rocq.sources import beyond, paths, sources
 from .rocq.statements import Headline, Statements, read
 from .verdict.ablation import Ablation
 from .verdict.ledger import Claim, Reading, expected_without, load
@@ -28,7 +28,7 @@ from .verdict.verdicts import Verdict, of_readings
 from .verdict.workbench import Workbench
 
 PAPER, OURS = "[G25]", "ours"
-THEORY = "../proofs/theory"
+THEORY, BEYOND = "../proofs/theory", "../proofs/theory_beyond"
 NONE = "no instance is computed"
 COUNTEREXAMPLE, INSTANCES = "the counterexample of", "what its theorems suppose is met together, which is proved:"
 PROVED = "met together, which is proved by"
@@ -108,7 +108,7 @@ def _examples() -> Examples:
 
 @cache
 def _instances() -> dict[str, Instance]:
-    return instances(_statements(), sources())
+    return instances(_statements(), sources() | beyond())
 
 
 @cache
@@ -123,8 +123,8 @@ def _how_met(headline: Headline, beside: tuple[str, ...]) -> tuple[str, str]:
     """Return which examples say all words that a headline supposes, or, where none do, the nearest one and what it lacks."""
     premises = parts(headline).premises
     if (one := _instances().get(headline.name)) is not None:
-        place = paths()[one.file]
-        return f"{PROVED} `{headline.name}_instance`, [{one.file}]({THEORY}/{place}), line {one.line}", ""
+        place = f"{BEYOND}/{one.file}" if one.file in beyond() else f"{THEORY}/{paths()[one.file]}"
+        return f"{PROVED} `{headline.name}_instance`, [{one.file}]({place}), line {one.line}", ""
     wanted = words(_statements(), headline, premises)
     if not wanted:
         return (NO_WORD if premises else NOTHING_SUPPOSED), ""

@@ -3,6 +3,7 @@
     THEORY    the folder of the theory
     paths     file name -> where the file lies; file names are unique, whatever their folder
     sources   file name -> text
+    beyond    the same of the files beside the theory that need more of MathComp than it does, in proofs/theory_beyond
     needs     file name -> the files of ours that it requires
 
 A new file is found where it lies: nothing lists them. Rocq resolves `From faultspace Require Import Gap` to the one file Gap.v, in
@@ -18,6 +19,7 @@ from importlib.resources.abc import Traversable
 from itertools import pairwise
 
 THEORY: Traversable = resources.files("faultspace.proofs").joinpath("theory")
+BEYOND: Traversable = resources.files("faultspace.proofs").joinpath("theory_beyond")
 REQUIRED = re.compile(r"From\s+faultspace\s+Require\s+(?:Import|Export)?([\s\w]*)\.")
 
 
@@ -36,6 +38,11 @@ def paths(theory: Traversable = THEORY) -> dict[str, str]:
 def sources() -> dict[str, str]:
     """Returns file name -> text, of all files of the theory."""
     return {name: THEORY.joinpath(path).read_text("utf-8") for name, path in paths().items()}
+
+
+def beyond() -> dict[str, str]:
+    """Returns file name -> text, of the files that use the theory and what it does without; nothing of the theory needs them."""
+    return {one.name: one.read_text("utf-8") for one in sorted(BEYOND.iterdir(), key=lambda one: one.name) if one.name.endswith(".v")}
 
 
 def needs(texts: Mapping[str, str]) -> dict[str, set[str]]:

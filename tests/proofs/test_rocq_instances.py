@@ -7,15 +7,16 @@ from pathlib import Path
 
 import pytest
 
-from faultspace.proofs.rocq.build import CLOSED, NoRocq, NotProved, compile_file, compiled_theory
+from faultspace.proofs.rocq.build import CLOSED, BrokenTheory, NoRocq, NotProved, compile_file, compiled_theory
 from faultspace.proofs.rocq.premises import instances, together
-from faultspace.proofs.rocq.sources import sources
+from faultspace.proofs.rocq.sources import beyond, sources
 from faultspace.proofs.rocq.statements import Headline, read
 from faultspace.proofs.rocq.theorems import proposition
 
-TEXTS = sources()
+TEXTS, BEYOND = sources(), beyond()
 STATEMENTS = read(TEXTS)
 INSTANCES = instances(STATEMENTS, TEXTS)
+REAL_CLOSED = "From mathcomp.real_closed Require Import realalg.\n"
 
 MADE = [
     (" n : P n", ()),
@@ -86,3 +87,21 @@ def test_instances_mean_what_the_headlines_would_mean_by_them() -> None:
     except NoRocq as reason:
         pytest.skip(str(reason))
     assert compile_file(theory, "Instances.v", question()).strip() == CLOSED
+
+
+def test_what_needs_more_of_mathcomp_is_proved_where_that_is_installed() -> None:
+    """The files beside the theory state instances, too, and rest on nothing."""
+    found = instances(STATEMENTS, BEYOND)
+    assert found and {one.file for one in found.values()} == set(BEYOND) and not set(found) & set(INSTANCES)
+    try:
+        theory: Path = compiled_theory()
+    except NoRocq as reason:
+        pytest.skip(str(reason))
+    try:
+        compile_file(theory, "Probe.v", REAL_CLOSED)
+    except BrokenTheory:
+        pytest.skip("MathComp's real closed fields are not installed: apt install libcoq-mathcomp-real-closed")
+    for file, text in BEYOND.items():
+        every_one = ", ".join(f"{name}_instance" for name, one in found.items() if one.file == file)
+        asked = f"{text}Definition every_one := ({every_one}).\nPrint Assumptions every_one.\n"
+        assert compile_file(theory, file, asked).strip() == CLOSED
