@@ -54,6 +54,8 @@ FILE_SECONDS = 600
 MOST_MEMORY, MOST_WRITTEN, MOST_PRINTED = 8 * 2**30, 256 * 2**20, 8 * 2**20
 # Words of Rocq that write, load or run something outside: in no file that is written here for it to compile.
 OUTSIDE = re.compile(r"\b(?:Redirect|Extraction|Load|Cd|Drop|Declare\s+ML|Add\s+(?:Rec\s+)?(?:LoadPath|ML))\b")
+# OCaml 5 sets address space aside for 128 cores, more than the limit; Rocq uses one. The rest is what Rocq chooses where nothing is set.
+ONE_CORE = "d=1,s=32M,o=120"
 LIMITED = 'ulimit -t "$1"; ulimit -v "$2" 2>/dev/null; ulimit -f "$3"; shift 3; exec "$@"'
 DIGESTS = "digests.json"
 CLOSED = "Closed under the global context"
@@ -295,11 +297,12 @@ def _coqc(file: Path, options: tuple[str, ...], seconds: float) -> str:
     assert compiler is not None
     limits = (str(int(seconds) + 1), str(MOST_MEMORY // 1024), str(MOST_WRITTEN // 512))
     with tempfile.TemporaryDirectory() as home, tempfile.TemporaryFile() as printed, tempfile.TemporaryFile() as complaints:
+        nobodys = dict.fromkeys(("HOME", "TMPDIR", "XDG_CONFIG_HOME", "XDG_DATA_HOME"), home)
         try:
             run = subprocess.run(
                 ["/bin/sh", "-c", LIMITED, "sh", *limits, compiler.path, *options, file.name],
                 cwd=file.parent,
-                env={**os.environ, "HOME": home, "TMPDIR": home, "XDG_CONFIG_HOME": home, "XDG_DATA_HOME": home},
+                env={**os.environ, **nobodys, "OCAMLRUNPARAM": ONE_CORE},
                 stdout=printed,
                 stderr=complaints,
                 timeout=seconds,
