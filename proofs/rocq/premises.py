@@ -57,7 +57,7 @@ def together(headline: Headline) -> tuple[str, ...]:
     conclusion included: for every field first, then for some field, then for every field with one example for each conjunct that has
     premises of its own, which may contradict those of another. Nothing where it has no premise.
 
-    A premise that speaks of what the conclusion says to exist is left out, for that is not chosen but proved.
+    A premise that speaks of what the conclusion says to exist, or of what is bound there, is left out, for that is not chosen but proved.
     """
     binders, proposition = _cut(headline.statement, " : ")
     met = _met(proposition)
@@ -107,7 +107,9 @@ def _met(text: str) -> str:
     text = _bare(text.strip())
     if begun := BINDER.match(text):
         bound, rest = _cut(text, " in " if begun[0] == "let" else ",")
-        met = "" if begun[0].startswith("exists") else _met(rest)
+        if begun[0].startswith("exists"):
+            return " /\\ ".join(_closed(one) for one in dict.fromkeys(_given(text, ())))
+        met = _met(rest)
         return _within(bound, met) if met else ""
     premise, rest = _cut(text, "->")
     conjuncts = _conjuncts(text)
@@ -117,12 +119,28 @@ def _met(text: str) -> str:
     return " /\\ ".join([*(_closed(one) for one in first), f"({last})" if loose and first else last])
 
 
+def _given(text: str, bound: tuple[str, ...]) -> list[str]:
+    """Return the premises in the text that name nothing of what is bound there, or of `bound`."""
+    text = _bare(text.strip())
+    if begun := BINDER.match(text):
+        binders, rest = _cut(text, " in " if begun[0] == "let" else ",")
+        names = [binders.split()[1]] if begun[0] == "let" else [name for one in _groups(binders[begun.end() :]) for name in one[0].split()]
+        return _given(rest, (*bound, *names)) if begun[0] != "exists2" else []
+    premise, rest = _cut(text, "->")
+    if rest:
+        return [*([] if any(_says(premise, name) for name in bound) else [premise.strip()]), *_given(rest, bound)]
+    conjuncts = _conjuncts(text)
+    return [one for conjunct in conjuncts if len(conjuncts) > 1 for one in _given(conjunct, bound)]
+
+
 def _chains(text: str) -> list[str]:
     """Return for each conjunct with premises what says that its premises, and those before it, hold of something."""
     text = _bare(text.strip())
     if begun := BINDER.match(text):
         bound, rest = _cut(text, " in " if begun[0] == "let" else ",")
-        return [] if begun[0].startswith("exists") else [_within(bound, one) for one in _chains(rest)]
+        if begun[0].startswith("exists"):
+            return [met] if (met := _met(text)) else []
+        return [_within(bound, one) for one in _chains(rest)]
     premise, rest = _cut(text, "->")
     if rest:
         return [" /\\ ".join([_closed(premise.strip()), one]) for one in _chains(rest)] or [premise.strip()]
@@ -140,12 +158,17 @@ def _within(bound: str, met: str) -> str:
 def _bound(binders: str, met: str) -> str:
     """Return that there are these, of which what follows holds; a name that stands nowhere there is left out."""
     said, kept = met, list[str]()
-    for one in reversed(re.findall(r"\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\)|[^\s()]+", binders)):
-        names, colon, kind = one.removeprefix("(").removesuffix(")").partition(" : ") if one.startswith("(") else (one, "", "")
+    for names, colon, kind in reversed(_groups(binders)):
         if used := " ".join(name for name in names.split() if _says(said, name)):
             kept.insert(0, f"({used}{colon}{kind})" if colon else used)
             said = f"{kept[0]} {said}"
     return f"exists {' '.join(kept)}, {met}" if kept else met
+
+
+def _groups(binders: str) -> list[tuple[str, str, str]]:
+    """Return the binders one by one: names, and " : " and their type where they have one."""
+    found = re.findall(r"\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\)|[^\s()]+", binders)
+    return [one.removeprefix("(").removesuffix(")").partition(" : ") if one.startswith("(") else (one, "", "") for one in found]
 
 
 def _says(text: str, name: str) -> bool:

@@ -25,6 +25,10 @@ MADE = [
         ("(K : fieldType) : exists n (S : T n), P S /\\ (0 < n)%N", ": exists (K : fieldType) n (S : T n), P S /\\ (0 < n)%N"),
     ),
     (" (K : rcfType) : P K -> exists x, Q x -> R x", ("(K : rcfType) : P K", ": exists (K : rcfType), P K")),
+    (
+        " n : P n -> exists k, let j := k in [/\\ Q n -> R k, S j -> T k & U k n -> V k]",
+        (": exists n, P n /\\ Q n", ": (exists n, P n /\\ Q n)"),
+    ),
     (" n : let a := n in let b := 1 in P a -> Q b", (": exists n, let a := n in P a",)),
     (
         " n : P n -> [/\\ Q n, forall k, R k -> S k & forall l, T l \\/ U l -> V l]",

@@ -93,11 +93,13 @@ Proof. by exists 1%N, 2%N. Qed.
 
 (** ** sharp-windows *)
 
-Theorem sharp_equality_instance (K : fieldType) : exists n m p (S : system K n m p), (0 < m)%N /\ (0 < lag S)%N.
-Proof. by exists 1%N, 1%N, (1 + 1)%N, (noted K); rewrite noted_lag. Qed.
+Theorem sharp_equality_instance (K : fieldType) : exists n m p (S : system K n m p),
+  (0 < m)%N /\ (0 < lag S)%N /\ left_invertible S.
+Proof. by exists 1%N, 1%N, (1 + 1)%N, (noted K); rewrite noted_lag; do 2!split=> //; exact: noted_left_invertible. Qed.
 
-Theorem sharp_equality_left_invertible_instance (K : fieldType) : exists n m p (S : system K n m p), (0 < lag S)%N.
-Proof. by exists 1%N, 1%N, (1 + 1)%N, (noted K); rewrite noted_lag. Qed.
+Theorem sharp_equality_left_invertible_instance (K : fieldType) : exists n m p (S : system K n m p),
+  (0 < lag S)%N /\ left_invertible S.
+Proof. by exists 1%N, 1%N, (1 + 1)%N, (noted K); rewrite noted_lag; split=> //; exact: noted_left_invertible. Qed.
 
 Theorem sharp_equality_lag_instance (K : fieldType) : let S : system K (1 + 1 + 1) 1 (1 + 1) :=
     System (block_mx (block_mx 0 0 1%:M 0) 0 0 0) (row_mx (row_mx 0 1%:M) 0) (block_mx (col_mx 1%:M 0) 0 0 1%:M) 0 in
