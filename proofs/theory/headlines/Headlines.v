@@ -1,5 +1,5 @@
-(** The theorems that the ledger of claims names, in its order, each for any field K and any dimensions unless it says otherwise. To read
-    them takes Vocabulary.v, which tells every word that they use; this file and those that it includes define none. *)
+(** The first of the theorems that the ledger of claims names, in its order, each for any field K and any dimensions unless it says
+    otherwise. To read them takes Vocabulary.v, which tells every word that they use; this file and those that it includes define none. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary.
 From faultspace Require HeadlinesMore HeadlinesLimits HeadlinesStructure HeadlinesChecks HeadlinesFields HeadlinesExperiments.
@@ -45,8 +45,8 @@ Theorem white_inputs_exist (K : fieldType) nu H : exists u : nat -> 'M[K]_(H * n
 Proof. exact: ConsistencyExamples.white_exists. Qed.
 
 (** The estimator of B and D that is refuted is the one of output error: the model from rest whose outputs fit best in the mean square.
-    one-sided, refuted: with A = a, F = 1, C = [1 0], G = [0 1], B = -a, D = 0 and v(k) = u(k+1) any fit with the right B, or the right
-    D, is worse than another one, B' = 0 and D' = [1 0]. *)
+    one-sided, refuted: with A = a, F = 1, C = [1 0], G = [0 1], B = -a, D = 0 and v(k) = u(k+1), for a other than 0 any fit with the right
+    B, or the right D, is worse at every k >= 1 than another one, B' = 0 and D' = [1 0]. *)
 Theorem assumption_2_one_sided (K : realFieldType) (a : K) N H (Q : 'M[K]_N) (u : nat -> 'cV[K]_N) :
   Q^T = Q -> white Q u H -> a != 0 ->
   let v k := u k.+1 in let y k := row_mx (u k) (u k.+1) in let B := (- a)%:M in
@@ -298,7 +298,7 @@ Proof. exact: SettledSolutions.solutions_settle_at_lag. Qed.
 Theorem problem_11_full_rank (K : fieldType) n m p (S : system K n m p) s f g : \rank (transfer S) = p -> solves S s f g.
 Proof. exact: Readings.all_columns_solve_full_rank. Qed.
 
-(** dimension, reached at s + 1 = lag + 1 samples and not before *)
+(** dimension, reached at s + 1 = lag + 1 samples and, of the windows of at least one sample, not before *)
 Theorem problem_11_dimension (K : fieldType) n m p (S : system K n m p) g d s k (Z : 'M_(k, n + p)) :
   left_invertible S -> gcd_of_minors (pencil S) g -> infinite_zeros S d -> spans_solutions S s.+1 Z ->
   \rank Z = (m + ((size g).-1 + d))%N <-> (lag S <= s)%N.

@@ -1,6 +1,6 @@
 (** The third part of Headlines.v, which includes it: the limits of subspace identification, further. When the limit of PI-MOESP has
     all of the range of O_s, what the range tells of A and C, a fault that follows the input, and examples. LimitsVocabulary.v tells the
-    words that are used here alone: steered, similar, autoregressive, stationary, seen_state.
+    words that are not in Vocabulary.v: steered, similar, autoregressive, stationary, seen_state.
 
     Measurement noise is nowhere in these theorems, as it is a fault with F = 0 and G = 1 (noise_is_a_fault); those of settle-1, where the
     fault is made of the inputs alone, are without noise. Where a statement speaks of a least mean square error, of a positive variance or
@@ -29,8 +29,8 @@ Proof. exact: LimitExamples.noise_is_a_fault. Qed.
 
 (** ** proposition-1, all of the range *)
 
-(** u autoregressive of order a and n + a past inputs: all of the range. Neither stationarity nor observability is asked. What x(0) is made
-    of is before the innovations e(a), e(a+1), ..., and so uncorrelated with them. *)
+(** u autoregressive of order a, (A, B) controllable, and n + a past inputs: all of the range, where Uf excites. Neither stationarity nor
+    observability is asked. What x(0) is made of is before the innovations e(a), e(a+1), ..., and so uncorrelated with them. *)
 Theorem whole_range_autoregressive (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
     u v x y t q s a (Au : nat -> 'M_nu) e L :
   process S B D u v x y -> (forall i k, (i < t + s)%N -> (k < t + s)%N -> cov Q (u i) (v k) = 0) ->
@@ -93,8 +93,8 @@ Theorem one_state_signals_exist : let S : system (field_of rat) 1 0 1 := System 
 Proof. exists MovingAverage.Q; exact: ColouredInputs.moving_average_signals. Qed.
 
 (** u of any colour, fixed, and x(0) uncorrelated with the inputs from t - q on, as it is where the memory of u is no longer than t - q. The
-    limit has all of the range iff seen_state, a polynomial in A and B, has full rank; on every line through such a point (A, B) all
-    but at most n t points are such; and with n past inputs there is such a point. *)
+    limit has all of the range iff seen_state, a polynomial in A and B, has full rank, (A, C) being observable on s samples; on every line
+    through such a point (A, B) all but at most n t points are such; and with n past inputs that excite there is such a point. *)
 Theorem whole_range_seen (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p)) u v x y t q s L :
   process S B D u v x y -> (forall i k, (i < t + s)%N -> (k < t + s)%N -> cov Q (u i) (v k) = 0) ->
   (forall i, (t - q <= i < t + s)%N -> cov Q (u i) (x 0%N) = 0) -> (q <= t)%N -> cov Q (future t s u) (future t s u) \in unitmx ->
@@ -110,7 +110,7 @@ Theorem whole_range_somewhere (K : fieldType) N n nu (Q : 'M[K]_N) (u : nat -> '
   exists (A : 'M[K]_n) (B : 'M[K]_(nu, n)), row_full (seen_state Q u t q s A B).
 Proof. exact: AlmostEvery.whole_range_somewhere. Qed.
 
-(** A nilpotent, A^q = 0: all of the range, u of any colour. *)
+(** A nilpotent, A^q = 0, and (A, B) controllable: all of the range, for u of any colour that excites. *)
 Theorem whole_range_nilpotent (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
     u v x y t q s L :
   process S B D u v x y -> (forall i k, (i < t + s)%N -> (k < t + s)%N -> cov Q (u i) (v k) = 0) -> (q <= t)%N ->
@@ -140,7 +140,7 @@ Proof. exact: Similarity.white_limit_similar. Qed.
 (** ** proposition-1, white-b-d: all of the range, and B and D wrong *)
 
 (** A = a, F = 1, B = b, C = [1 0], G = [0 1], D = 0, v(k) = u(k+1): output error gives a + b and [1 0], and any fit with the right B, or
-    the right D, is worse. *)
+    the right D, is worse at every k >= 1, for a, b and a + b other than 0. *)
 Theorem white_b_d_wrong_a_c_right (K : realFieldType) (a b : K) N H (Q : 'M[K]_N) (u : nat -> 'cV[K]_N) :
   Q^T = Q -> white Q u H -> a != 0 -> b != 0 -> a + b != 0 -> let v k := u k.+1 in let B := b%:M in
   let S : system K 1 1 (1 + 1) := System a%:M 1%:M (row_mx 1%:M 0) (row_mx 0 1%:M) in

@@ -52,7 +52,8 @@ Theorem mean_autoregressive (K : fieldType) (E : (nat -> K) -> K -> Prop) n m p 
   (forall z, steered S B z) -> limit E (successive 0 q u) (successive q s u) (successive q s y) L -> (L == O S s)%MS.
 Proof. move=> isE model quasi; exact: (MeanLimits.mean_autoregressive isE model quasi). Qed.
 
-(** Where A is stable: innovations, and faults that are uncorrelated at different times, know nothing of the states before. *)
+(** Where A is stable: faults that are uncorrelated at different times know nothing of the states before, and innovations of order a
+    nothing of those a samples before and earlier. *)
 Theorem mean_past_states (K : realFieldType) (E : (nat -> K) -> K -> Prop) n m p nu (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
     u v x y :
   mean E -> positive E -> process S B D u v x y -> stable (sysA S) ->
@@ -212,8 +213,8 @@ exact: (PastOutputMeans.coloured_seen isE pos model st uv quasi short two all_st
 Qed.
 
 (** There are such signals for every such system with one fault and one input, F not 0, from any initial state: u white,
-    v(t) = f(t+2) + f(t) for a white f that is uncorrelated with u at all lags. The limits of PO-MOESP exist and lie outside the range,
-    whatever B is, and so also where (A, B) is controllable. *)
+    v(t) = f(t+2) + f(t) for a white f that is uncorrelated with u at all lags. The limits of PO-MOESP exist and, for a past and two
+    samples or more, lie outside the range, whatever B is, and so also where (A, B) is controllable. *)
 Theorem coloured_fault_exists (K : realFieldType) n (S : system K n 1 n) (B : 'M_(1, n)) (D : 'M_(1, n)) x0 : archimedean K ->
   stable (sysA S) -> sysC S = 1%:M -> sysG S = 0 -> sysF S != 0 ->
   let E := @time_average K in let u t : 'rV[K]_1 := (rudin_shapiro K t)%:M in

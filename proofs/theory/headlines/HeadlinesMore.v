@@ -152,8 +152,8 @@ Theorem window_ranks_solutions (K : fieldType) n m p (S : system K n m p) s k (Z
   (\rank Z + \sum_(e <- etas S | (e <= s)%N) e.+1 = n + p)%N.
 Proof. exact: SolutionCount.solution_count. Qed.
 
-(** limit: n_z = r + n_f + n_inf + sum eps, which is r + zeta, at s + 1 = lag + 1 samples and not before; where the system is
-    left-invertible, problem_11_dimension *)
+(** limit: n_z = r + n_f + n_inf + sum eps, which is r + zeta, at s + 1 = lag + 1 samples and, of the windows of at least one sample, not
+    before; where the system is left-invertible, problem_11_dimension *)
 Theorem window_ranks_limit (K : fieldType) n m p (S : system K n m p) s k (Z : 'M_(k, n + p)) c (Y : 'M_(n + m, c)) g d :
   spans_solutions S s.+1 Z -> minimal_basis (pencil S)^T Y ->
   gcd_of_minors_of_order (n + \rank (transfer S)) (pencil S) g -> system_infinite_zeros S d ->
@@ -273,7 +273,7 @@ Theorem canonical_form_any_a_c (K : fieldType) (c : K) s : c != 0 -> c != 1 -> (
   same_behavior S S' /\ exists f g, solves S s f g /\ ~ solves S' s f g.
 Proof. exact: SmallSystems.equal_behaviors_other_solutions. Qed.
 
-(** feedback, refuted: for every system and every L, and so that no change of basis undoes it *)
+(** feedback, refuted: the behaviour stays for every system and every L; and for one system no change of basis undoes it *)
 Theorem canonical_form_feedback (K : fieldType) n m p (S : system K n m p) L :
   same_behavior (System (sysA S + L *m sysF S) (sysF S) (sysC S + L *m sysG S) (sysG S)) S.
 Proof. exact: SmallSystems.feedback_behavior. Qed.

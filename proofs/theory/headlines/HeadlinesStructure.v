@@ -139,7 +139,8 @@ Theorem zero_assignment_observable (K : fieldType) n m p (S : system K n m p) (g
     gcd_of_minors (pencil (with_faults S F G)) g) <-> (size g <= (zeta S).+1)%N.
 Proof. exact: ZeroAssignmentPairs.zero_polynomials_of_pairs_observable. Qed.
 
-(** unobservable: the multiples of the characteristic polynomial of the unobservable part, and no others *)
+(** unobservable: the multiples other than 0, of degree at most zeta, of the characteristic polynomial of the unobservable part, and no
+    others, where the normal rank is not 0 *)
 Theorem zero_assignment_unobservable (K : fieldType) n m p (S : system K n m p) d (N : 'M_(d, n)) M (g : {poly K}) :
   unobservable_dynamics S N M -> let r := \rank (transfer S) in (0 < r)%N -> g != 0 ->
   (exists (F : 'M_(r, n)) (G : 'M_(r, p)), same_behavior (with_faults S F G) S /\

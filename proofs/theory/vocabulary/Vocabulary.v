@@ -1,6 +1,6 @@
-(** What the theorems speak of: every word that the statement of a headline uses, and nothing else. Who has read this file and the
-    statements of the files Headlines*.v knows what is claimed; the other files prove it. (The checks of certificates have a vocabulary of
-    their own, CertificatesVocabulary.v.)
+(** What the theorems speak of: every word that the statements of Headlines.v and HeadlinesMore.v use, and nothing else. The other files of
+    headlines have vocabularies of their own beside this one. Who has read these files and the statements knows what is claimed; the other
+    files prove it.
 
     Signals and states are row vectors, so a matrix here is the transpose of the paper's:
 
