@@ -1,23 +1,23 @@
 (** Instances for the headlines on certificates of integers (HeadlinesChecks.v): small certificates that the checks accept, of systems with
     one state. What is seen to be a minimal basis is written down over every field.
 
-    accumulator, fed == x(k+1) = x(k) + v(k), r = (x, v); and x(k+1) = v(k), r = (x, v - x), with the same behaviour
-          memoryless == x(k+1) = v(k), r = (x, v)
-             delayed == x(k+1) = x(k) + v(k), r = x
-          two_in_one == two faults, whose sum alone is seen
-          two_faults == x(k+1) = x(k) + v_1(k), r = (x, v_1, v_2)
-          both_alike == the same, one fault being v_1 and v_2
-               seven == a modulus
-            relation == r_1(k+1) = r_1(k) + r_2(k), of the accumulator
-           relation3 == the same with a third output
-          other_step == r_1(k+1) = r_2(k)
- one_hint, two_hints == hints that there are no other relations
-            words_of == words of two samples, which show that, too; `first` are the faults of the one that begins at 1
-        one_and_none == the faults 1 and 0
-       degree_column == the degree of a column, and the rank of its leading coefficients
-        signed_delay == x(k+1) = v(k), r = (-x, v)
-           its_basis == a minimal basis of its pencil
-       shorter_basis == one of [q, -1] *)
+       accumulator, fed == x(k+1) = x(k) + v(k), r = (x, v); and x(k+1) = v(k), r = (x, v - x), with the same behaviour
+             memoryless == x(k+1) = v(k), r = (x, v)
+                delayed == x(k+1) = x(k) + v(k), r = x
+             two_in_one == two faults, whose sum alone is seen
+             two_faults == x(k+1) = x(k) + v_1(k), r = (x, v_1, v_2)
+             both_alike == the same, one fault being v_1 and v_2
+                  seven == a modulus
+               relation == r_1(k+1) = r_1(k) + r_2(k), of the accumulator
+              relation3 == the same with a third output
+             other_step == r_1(k+1) = r_2(k)
+    one_hint, two_hints == hints that there are no other relations
+               words_of == words of two samples, which show that, too; `first` are the faults of the one that begins at 1
+           one_and_none == the faults 1 and 0
+          degree_column == the degree of a column, and the rank of its leading coefficients
+           signed_delay == x(k+1) = v(k), r = (-x, v)
+              its_basis == a minimal basis of its pencil
+          shorter_basis == a minimal basis of [q, -1] *)
 From Coq Require Import ZArith.
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg poly polydiv
   matrix mxalgebra.
