@@ -27,7 +27,7 @@ CONNECTIVES = ("->", "<->", "/\\", "\\/")
 NOT_PLAIN = re.compile(r"~|<>|<->|\\/|->")
 FIELD = re.compile(r"\(K : \w+\)")
 INSTANCE = re.compile(r"^Theorem (\w+)_instance\b(.*?)\.\nProof\.", re.MULTILINE | re.DOTALL)
-TYPED = re.compile(r"\(([\w']+) : [^()]*(?:\([^()]*\))?\)")
+TYPED = re.compile(r"\(([\w']+) : (?:[^()]|\((?:[^()]|\([^()]*\))*\))*\)")
 OF_ANY_SYSTEM = re.compile(r"\(S : system K n m p\)")
 OPENS, CLOSES = "([{", ")]}"
 
@@ -172,7 +172,8 @@ def _groups(binders: str) -> list[tuple[str, str, str]]:
 
 
 def _says(text: str, name: str) -> bool:
-    return re.search(rf"(?<![\w']){re.escape(name)}(?![\w'])", text) is not None
+    """Return whether it names that, also as a size: 'M_n, 'rV[K]_n."""
+    return re.search(rf"((?<![\w'])|(?<=[MV\]]_)){re.escape(name)}(?![\w'])", text) is not None
 
 
 def _closed(text: str) -> str:

@@ -24,6 +24,10 @@ MADE = [
         " (K : fieldType) n m (S : T n) : P S -> (0 < n)%N -> Q S",
         ("(K : fieldType) : exists n (S : T n), P S /\\ (0 < n)%N", ": exists (K : fieldType) n (S : T n), P S /\\ (0 < n)%N"),
     ),
+    (
+        " (K : fieldType) n N (M : 'M[K]_N) (x : 'rV_n) : P M -> Q x -> R M",
+        ("(K : fieldType) : exists n N (M : 'M[K]_N) (x : 'rV_n), P M /\\ Q x",),
+    ),
     (" (K : rcfType) : P K -> exists x, Q x -> R x", ("(K : rcfType) : P K", ": exists (K : rcfType), P K")),
     (
         " n : P n -> exists k, let j := k in [/\\ Q n -> R k, S j -> T k & U k n -> V k]",
@@ -49,6 +53,12 @@ def test_each_instance_is_of_a_headline_and_of_all_its_premises() -> None:
     assert len(INSTANCES) >= 40 and set(INSTANCES) <= set(STATEMENTS.headlines)
     for name, one in INSTANCES.items():
         assert TEXTS[one.file].splitlines()[one.line - 1].startswith(f"Theorem {name}_instance")
+
+
+@pytest.mark.parametrize("kind", ["Z", "id Z", "id (id Z)", "id (id (id Z))"])
+def test_a_name_may_have_its_type_besides(kind: str) -> None:
+    text = f"Theorem residues_exist_instance : exists (l : {kind}), Z.lt (Zpos xH) l.\nProof."
+    assert set(instances(STATEMENTS, {"Made.v": text})) == {"residues_exist"}
 
 
 @pytest.mark.parametrize(
