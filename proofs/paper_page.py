@@ -2,7 +2,7 @@
 language of claims.
 
     of_the_paper     the claims that the ledger refers to [G25], in its order
-    TheoremRow       a theorem of a reading: where it stands, what it supposes, and which examples say the words of that
+    TheoremRow       a theorem of a reading: where it stands, what it supposes, and where it is proved that this can be met
     ReadingRow       a reading, a case that meets what it supposes, and its theorems
     rows             the readings of a claim
     lines            the page, in Markdown
@@ -19,9 +19,9 @@ from ..base.progress import silent
 from .brought.instances import meeting
 from .brought.readings import readings
 from .hypotheses import ablations
-from .rocq.premises import Examples, Instance, examples, instances, parts, words
+from .rocq.premises import Instance, instances, premises
 from .rocq.sources import beyond, paths, sources
-from .rocq.statements import Headline, Statements, read
+from .rocq.statements import Statements, read
 from .verdict.ablation import Ablation
 from .verdict.ledger import Claim, Reading, expected_without, load
 from .verdict.verdicts import Verdict, of_readings
@@ -30,22 +30,18 @@ from .verdict.workbench import Workbench
 PAPER, OURS = "[G25]", "ours"
 THEORY, BEYOND = "../proofs/theory", "../proofs/theory_beyond"
 NONE = "no instance is computed"
-COUNTEREXAMPLE, INSTANCES = "the counterexample of", "what its theorems suppose is met together, which is proved:"
-PROVED = "met together, which is proved by"
-NOTHING_SUPPOSED, NO_WORD = "it supposes nothing", "they use no word of ours"
 
 
 @dataclass(frozen=True)
 class TheoremRow:
-    """`premises` are texts of Rocq. `met` tells the theorem that they hold together, or examples that say all their words; "" where there
-    is neither, and then `nearest` what lacks."""
+    """`premises` are texts of Rocq. `instance` leads to the theorem that they can be met together; it is "" where nothing is supposed of
+    what the theorem is about, and only there."""
 
     name: str
     file: str
     line: int
     premises: tuple[str, ...]
-    met: str
-    nearest: str
+    instance: str
 
 
 @dataclass(frozen=True)
@@ -66,7 +62,7 @@ def rows(claim: Claim) -> list[ReadingRow]:
     """Return a row for each reading of the claim."""
     found = []
     for reading in claim.readings:
-        theorems = tuple(_theorem(name, reading.theorems) for name in reading.theorems)
+        theorems = tuple(_theorem(name) for name in reading.theorems)
         found.append(ReadingRow(reading, _met(claim, reading, theorems), theorems))
     return found
 
@@ -77,23 +73,11 @@ def _met(claim: Claim, reading: Reading, theorems: Sequence[TheoremRow]) -> str:
     if name in readings():
         case = meeting(name, refuted=refuted)
         return "" if case is None else f"`{case}`{', its counterexample' if refuted else ''}"
-    if refuted and theorems and all(one.met for one in theorems):
-        compared = _by_words(theorems)
-        weaker = f"; of the premises of {', '.join(f'`{name}`' for name in compared)} the words alone are compared" if compared else ""
-        return f"{COUNTEREXAMPLE} {', '.join(f'`{one.name}`' for one in theorems)}{weaker}"
-    if reading.hypotheses and theorems and all(one.met for one in theorems) and not _by_words(theorems) and (proved := _proved(theorems)):
-        return f"{INSTANCES} {', '.join(f'`{name}_instance`' for name in proved)}"
-    return "" if reading.hypotheses else NOTHING_SUPPOSED
-
-
-def _proved(theorems: Sequence[TheoremRow]) -> list[str]:
-    """Return the names of those of which an instance is proved."""
-    return [one.name for one in theorems if one.met.startswith(PROVED)]
-
-
-def _by_words(theorems: Sequence[TheoremRow]) -> list[str]:
-    """Return the names of those whose premises are met as far as words tell."""
-    return [one.name for one in theorems if one.met not in ("", NOTHING_SUPPOSED, NO_WORD) and not one.met.startswith(PROVED)]
+    if refuted and theorems:
+        return f"the counterexample of {', '.join(f'`{one.name}`' for one in theorems)}"
+    if reading.hypotheses and (proved := [one.name for one in theorems if one.instance]):
+        return f"what its theorems suppose can be met together, which is proved: {', '.join(f'`{name}_instance`' for name in proved)}"
+    return "" if reading.hypotheses else "it supposes nothing"
 
 
 @cache
@@ -102,40 +86,23 @@ def _statements() -> Statements:
 
 
 @cache
-def _examples() -> Examples:
-    return examples(_statements())
-
-
-@cache
 def _instances() -> dict[str, Instance]:
     return instances(_statements(), sources() | beyond())
 
 
 @cache
-def _theorem(name: str, beside: tuple[str, ...]) -> TheoremRow:
+def _theorem(name: str) -> TheoremRow:
     headline = _statements().headlines[name]
     before, _, _ = sources()[headline.file].partition(f"Theorem {name} ")
-    met, nearest = _how_met(headline, beside)
-    return TheoremRow(name, paths()[headline.file], before.count("\n") + 1, parts(headline).premises, met, nearest)
+    return TheoremRow(name, paths()[headline.file], before.count("\n") + 1, premises(headline), _instance(name))
 
 
-def _how_met(headline: Headline, beside: tuple[str, ...]) -> tuple[str, str]:
-    """Return which examples say all words that a headline supposes, or, where none do, the nearest one and what it lacks."""
-    premises = parts(headline).premises
-    if (one := _instances().get(headline.name)) is not None:
-        place = f"{BEYOND}/{one.file}" if one.file in beyond() else f"{THEORY}/{paths()[one.file]}"
-        return f"{PROVED} `{headline.name}_instance`, [{one.file}]({place}), line {one.line}", ""
-    wanted = words(_statements(), headline, premises)
-    if not wanted:
-        return (NO_WORD if premises else NOTHING_SUPPOSED), ""
-    found = _examples().saying(wanted, beside)
-    names = " and ".join(f"`{name}`" for name in found.names)
-    if not found.lacking:
-        return (f"{names} say all their words together" if len(found.names) > 1 else f"{names} says all their words of one example"), ""
-    if found.lacking == wanted:
-        return "", NONE
-    lacking = ", ".join(f"`{key.partition('.')[2]}`" for key in sorted(found.lacking))
-    return "", f"{NONE}: nearest {'come' if len(found.names) > 1 else 'comes'} {names}, without {lacking}"
+def _instance(name: str) -> str:
+    one = _instances().get(name)
+    if one is None:
+        return ""
+    place = f"{BEYOND}/{one.file}" if one.file in beyond() else f"{THEORY}/{paths()[one.file]}"
+    return f"`{name}_instance`, [{one.file}]({place}), line {one.line}"
 
 
 def lines() -> list[str]:
@@ -145,23 +112,13 @@ def lines() -> list[str]:
 
 
 def _counts(every: Sequence[ReadingRow]) -> Iterator[str]:
-    empty = [row for row in every if not row.met]
+    empty = [f"`{row.reading.id}`" for row in every if not row.met]
     theorems = {one.name: one for row in every for one in row.theorems}.values()
-    nothing, lacking = [one for one in theorems if one.met == NOTHING_SUPPOSED], [one.name for one in theorems if not one.met]
-    numbers = [one for one in theorems if one.met == NO_WORD]
-    proved = _proved([*theorems])
-    compared = sum(row.met.startswith(COUNTEREXAMPLE) and bool(_by_words(row.theorems)) for row in every)
-    said = len(theorems) - len(nothing) - len(numbers) - len(lacking) - len(proved)
-    yield (
-        f"The {len(every)} readings below rest on {len(theorems)} theorems. "
-        f"{len(every) - len(empty)} readings suppose nothing or have a case below that meets"
-    )
-    yield (
-        f"them, {compared} of them as far as words tell; of {len(empty)} {NONE}. {len(nothing)} theorems suppose nothing, "
-        f"and {len(numbers)} only what uses no word of ours; the words that {said}"
-    )
-    yield f"suppose are said by examples, and of {len(lacking)} {NONE}: {', '.join(f'`{name}`' for name in lacking)}."
-    yield f"Of {len(proved)} it is proved that all premises can be met together."
+    proved = sum(bool(one.instance) for one in theorems)
+    met = len(every) - len(empty)
+    yield f"The {len(every)} readings below rest on {len(theorems)} theorems. {met} readings suppose nothing or have a case below that"
+    yield f"meets them; of {len(empty)} {NONE}: {', '.join(empty) or 'none'}. {len(theorems) - proved} theorems suppose nothing"
+    yield f"of what they are about; of each of the other {proved} it is proved that all that it supposes can be met together."
     yield ""
 
 
@@ -200,8 +157,9 @@ def _reading(row: ReadingRow) -> Iterator[str]:
     yield f"- If: {'; '.join(reading.hypotheses) or 'nothing is supposed'}."
     yield f"- Met by: {row.met or NONE}."
     for one in row.theorems:
-        file, premises = one.file.rpartition("/")[2], ", ".join(f"`{text}`" for text in one.premises)
-        supposed = f"Premises: {premises}; {one.met or one.nearest}" if premises else "It supposes nothing"
+        file, supposed = one.file.rpartition("/")[2], ", ".join(f"`{text}`" for text in one.premises)
+        supposed = f"Premises: {supposed}" if supposed else "It supposes nothing"
+        supposed += f"; they can be met together: {one.instance}" if one.instance else ""
         yield f"- `{one.name}`, [{file}]({THEORY}/{one.file}), line {one.line}. {supposed}."
     if not row.theorems:
         yield "- No theorem."

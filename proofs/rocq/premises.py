@@ -1,22 +1,17 @@
-r"""What a headline supposes, and whether it is an example: its statement taken apart, as text.
+r"""What a headline supposes: its statement taken apart, as text.
 
-    Parts       the premises of a statement, what it says positively, and whether it says that of something that exists or is given
-    parts       the Parts of a headline
-    words       the words of ours that such texts name
+    premises    the premises of a statement
     together    the statement that all premises of a headline can be met together, for every field or for some
     Instance    a theorem NAME_instance of the theory: that all premises of the headline NAME hold together of something
     instances   headline -> its Instance; raises NotProved where one says something else
-    examples    the headlines that suppose nothing in words of ours and say something of what exists or is given, and those of all systems
-    Nearest     which of them say all the words that a headline supposes, or the most
 
-A statement is `binders : P -> ... -> [/\ Q, R & forall x, P' -> Q']`. All of P and P' are premises. Said positively is a conjunct without
-premises in which no `~`, `<>`, `<->`, `\/` stands. Nothing is parsed beyond that: which words of ours stand where is what is compared.
+A statement is `binders : P -> ... -> [/\ Q, R & forall x, P' -> Q']`. All of P and P' are premises. Nothing is parsed beyond that.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from .build import NotProved
@@ -24,32 +19,16 @@ from .statements import Headline, Statements
 
 BINDER = re.compile(r"(?:let|forall|exists2?|fun)\b")
 CONNECTIVES = ("->", "<->", "/\\", "\\/")
-NOT_PLAIN = re.compile(r"~|<>|<->|\\/|->")
 FIELD = re.compile(r"\(K : \w+\)")
 INSTANCE = re.compile(r"^Theorem (\w+)_instance\b(.*?)\.\nProof\.", re.MULTILINE | re.DOTALL)
 TYPED = re.compile(r"\(([\w']+) : (?:[^()]|\((?:[^()]|\([^()]*\))*\))*\)")
-OF_ANY_SYSTEM = re.compile(r"\(S : system K n m p\)")
 OPENS, CLOSES = "([{", ")]}"
 
 
-@dataclass(frozen=True)
-class Parts:
-    """`premises` and `plainly` are texts of Rocq: what is supposed, and what is said positively. `example`: of what exists or is given."""
-
-    premises: tuple[str, ...]
-    plainly: tuple[str, ...]
-    example: bool
-
-
-def parts(headline: Headline) -> Parts:
-    """Return the parts of its statement."""
+def premises(headline: Headline) -> tuple[str, ...]:
+    """Return what it supposes, as texts of Rocq, those of its conjuncts and of what it says to exist included."""
     _, proposition = _cut(headline.statement, " : ")
-    found = list(_taken_apart(proposition))
-
-    def texts(kind: str) -> tuple[str, ...]:
-        return tuple(dict.fromkeys(text for what, text in found if what == kind))
-
-    return Parts(texts("premise"), tuple(text for text in texts("said") if not NOT_PLAIN.search(text)), bool(texts("example")))
+    return tuple(dict.fromkeys(_taken_apart(proposition)))
 
 
 def together(headline: Headline) -> tuple[str, ...]:
@@ -182,61 +161,11 @@ def _closed(text: str) -> str:
     return f"({text})" if open_ else text
 
 
-@dataclass(frozen=True)
-class Examples:
-    """`given`: headline -> the words that it says positively of an example. `of_all`: headline -> the words that it supposes of any system,
-    and those that it then says positively of it or of something that exists with it."""
-
-    given: Mapping[str, frozenset[str]]
-    of_all: Mapping[str, tuple[frozenset[str], frozenset[str]]]
-
-    def saying(self, wanted: frozenset[str], first: Sequence[str] = ()) -> Nearest:
-        """Return headlines that together say all these words, or the one that lacks the fewest; of several those named `first`."""
-        found = [Nearest((name,), wanted - said) for name, said in self.given.items()]
-        found += [
-            Nearest((name, other), wanted - said - then)
-            for name, said in self.given.items()
-            for other, (supposed, then) in self.of_all.items()
-            if other != name and supposed <= said
-        ]
-        return min(found, key=lambda one: (len(one.lacking), len(one.names), one.names[0] not in first))
-
-
-@dataclass(frozen=True)
-class Nearest:
-    """`names` are an example, and a headline of all systems where one is needed; `lacking` the words that they do not say."""
-
-    names: tuple[str, ...]
-    lacking: frozenset[str]
-
-
-def examples(statements: Statements) -> Examples:
-    """Return the headlines that suppose nothing in words of ours and say something of what exists or is given, and those of all systems."""
-    given: dict[str, frozenset[str]] = {}
-    of_all: dict[str, tuple[frozenset[str], frozenset[str]]] = {}
-    for name, headline in statements.headlines.items():
-        apart = parts(headline)
-        supposed, said = words(statements, headline, apart.premises), words(statements, headline, apart.plainly)
-        if apart.example and not supposed:
-            given[name] = said
-        if OF_ANY_SYSTEM.search(_cut(headline.statement, " : ")[0]):
-            of_all[name] = supposed, said
-    return Examples(given, of_all)
-
-
-def words(statements: Statements, headline: Headline, texts: tuple[str, ...]) -> frozenset[str]:
-    """Return the keys of the words of ours that these texts name, but for the fields of a system; ^T is MathComp's transpose and none."""
-    named = statements.named(" ".join(texts).replace("^T", ""), headline.file)
-    return frozenset(word.key for word in named if word.name != "system")
-
-
-def _taken_apart(text: str) -> Iterator[tuple[str, str]]:
-    """Yield ("premise", text), ("said", text), and ("example", text) where something exists or is given."""
+def _taken_apart(text: str) -> Iterator[str]:
+    """Yield the premises in the text."""
     text = _bare(text.strip())
     if begun := BINDER.match(text):
-        bound, rest = _cut(text, " in " if begun[0] == "let" else ",")
-        if begun[0].startswith("exists") or " := System " in bound:
-            yield "example", bound
+        _, rest = _cut(text, " in " if begun[0] == "let" else ",")
         if begun[0] == "exists2":
             first, rest = _cut(rest, "&")
             yield from _taken_apart(first)
@@ -244,15 +173,13 @@ def _taken_apart(text: str) -> Iterator[tuple[str, str]]:
         return
     premise, rest = _cut(text, "->")
     if rest:
-        yield "premise", _bare(premise.strip())
+        yield _bare(premise.strip())
         yield from _taken_apart(rest)
         return
     conjuncts = _conjuncts(text)
-    if len(conjuncts) == 1:
-        yield "said", text
-        return
-    for one in conjuncts:
-        yield from _taken_apart(one)
+    if len(conjuncts) > 1:
+        for one in conjuncts:
+            yield from _taken_apart(one)
 
 
 def _conjuncts(text: str) -> list[str]:
