@@ -10,10 +10,10 @@ Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive
 Import GRing.Theory.
 Local Open Scope ring_scope.
 
-Section ZeroAssignment.
+Section Pencil.
 Variables (K : fieldType) (n m p r e : nat) (S : system K n m p) (s : nat).
-Variables (Z : 'M[K]_(e + (1 + r), n + p)) (U : 'M[K]_(e, n)) (a b : 'M[K]_(e, e + (1 + r))).
-Hypotheses (long : (n < s)%N) (coords : coordinates S s Z U a b) (obs : row_free (O S n)).
+Variables (Z : 'M[K]_(e + r, n + p)) (U : 'M[K]_(e, n)) (a b : 'M[K]_(e, e + r)).
+Hypotheses (coords : coordinates S s Z U a b) (obs : row_free (O S n)).
 Notation const := (map_mx (@polyC K)).
 
 Lemma observable_right_inverse : exists Y : 'M_(n + p, n),
@@ -33,31 +33,51 @@ have := hy j; rewrite /pencil block_mxEv mul_col_mx map_col_mx => /eq_col_mx[-> 
 by rewrite map_col map_mx1.
 Qed.
 
+Lemma pencil_rows_free : row_free b.
+Proof.
+have [_ freeU _ _ bZ] := coords; apply: inj_row_free => u ub; apply: (row_free_inj freeU); have := congr1 (mulmx u) bZ.
+by rewrite mulmxA ub mul0mx mul_mx_row => /(congr1 lsubmx); rewrite row_mxKl linear0 => <-; rewrite mul0mx.
+Qed.
+
+Lemma pencil_right_inverse : exists X, ('X *: const b - const a) *m X = 1%:M.
+Proof.
+have [_ freeU _ aZ bZ] := coords; have [W UW] := row_freeP freeU; have [Y YE] := observable_right_inverse.
+move: aZ bZ; rewrite -{1 2}[Z]hsubmxK !mul_mx_row => /eq_row_mx[aA aC] /eq_row_mx[bA bC].
+exists (const (row_mx (lsubmx Z) (- rsubmx Z)) *m Y *m const W).
+have -> : ('X *: const b - const a) *m (const (row_mx (lsubmx Z) (- rsubmx Z)) *m Y *m const W) =
+    const U *m (row_mx ('X%:M - const (sysA S)) (const (sysC S)) *m Y) *m const W.
+  rewrite !mulmxA; congr (_ *m _ *m _); rewrite map_row_mx !mul_mx_row !mulmxBl -!scalemxAl map_mxN !mulmxN -!map_mxM aA aC bA bC.
+  by rewrite map_mx0 oppr0 scaler0 sub0r opprK mulmxBr mul_mx_scalar !map_mxM.
+by rewrite YE mulmx1 -map_mxM UW map_mx1.
+Qed.
+
+End Pencil.
+
+(** The rows of b and one row more. *)
+Lemma pencil_and_row_free (K : fieldType) n m p r e (S : system K n m p) s (Z : 'M_(e + (1 + r), n + p)) U a b :
+  coordinates S s Z U a b -> exists c : 'rV_(e + (1 + r)), row_free (col_mx b c).
+Proof.
+move=> coords; have freeb := pencil_rows_free coords.
+have [E' unitE] := complete_rows freeb.
+exists (usubmx E').
+apply: inj_row_free => u u0; have : row_mx (lsubmx u) (row_mx (rsubmx u) (0 : 'rV[K]_r)) = 0.
+  have free : row_free (col_mx b E') by rewrite row_free_unit.
+  apply: (row_free_inj free); rewrite mul0mx -[E']vsubmxK !mul_row_col mul0mx addr0 -mul_row_col hsubmxK.
+  exact: u0.
+move=> z; have := congr1 lsubmx z; rewrite row_mxKl linear0 => l0.
+have := congr1 (lsubmx \o rsubmx) z; rewrite /= row_mxKr row_mxKl !linear0 => r0.
+by rewrite -[u]hsubmxK l0 r0 row_mx0.
+Qed.
+
+Section ZeroAssignment.
+Variables (K : fieldType) (n m p r e : nat) (S : system K n m p) (s : nat).
+Variables (Z : 'M[K]_(e + (1 + r), n + p)) (U : 'M[K]_(e, n)) (a b : 'M[K]_(e, e + (1 + r))).
+Hypotheses (long : (n < s)%N) (coords : coordinates S s Z U a b) (obs : row_free (O S n)).
+
 Theorem every_exceptional_polynomial (g : {poly K}) : (size g <= e.+1)%N -> exists P, exceptional_polynomial a b P = g.
 Proof.
-have [[_ freeZ] freeU _ aZ bZ] := coords; move=> sg.
-have freeb : row_free b.
-  apply: inj_row_free => u ub; apply: (row_free_inj freeU); have := congr1 (mulmx u) bZ.
-  by rewrite mulmxA ub mul0mx mul_mx_row => /(congr1 lsubmx); rewrite row_mxKl linear0 => <-; rewrite mul0mx.
-have [E' unitE] := complete_rows freeb.
-have freec : row_free (col_mx b (usubmx E')).
-  apply: inj_row_free => u u0; have : row_mx (lsubmx u) (row_mx (rsubmx u) (0 : 'rV_r)) = 0.
-    have free : row_free (col_mx b E') by rewrite row_free_unit.
-    apply: (row_free_inj free); rewrite mul0mx -[E']vsubmxK !mul_row_col mul0mx addr0 -mul_row_col hsubmxK.
-    exact: u0.
-  move=> z; have := congr1 lsubmx z; rewrite row_mxKl linear0 => l0.
-  have := congr1 (lsubmx \o rsubmx) z; rewrite /= row_mxKr row_mxKl !linear0 => r0.
-  by rewrite -[u]hsubmxK l0 r0 row_mx0.
-have [W UW] := row_freeP freeU; have [Y YE] := observable_right_inverse.
-have right : exists X, ('X *: const b - const a) *m X = 1%:M.
-  move: aZ bZ; rewrite -{1 2}[Z]hsubmxK !mul_mx_row => /eq_row_mx[aA aC] /eq_row_mx[bA bC].
-  exists (const (row_mx (lsubmx Z) (- rsubmx Z)) *m Y *m const W).
-  have -> : ('X *: const b - const a) *m (const (row_mx (lsubmx Z) (- rsubmx Z)) *m Y *m const W) =
-      const U *m (row_mx ('X%:M - const (sysA S)) (const (sysC S)) *m Y) *m const W.
-    rewrite !mulmxA; congr (_ *m _ *m _); rewrite map_row_mx !mul_mx_row !mulmxBl -!scalemxAl map_mxN !mulmxN -!map_mxM aA aC bA bC.
-    by rewrite map_mx0 oppr0 scaler0 sub0r opprK mulmxBr mul_mx_scalar !map_mxM.
-  by rewrite YE mulmx1 -map_mxM UW map_mx1.
-have [Q [_ assign]] := every_determinant freec right.
+move=> sg; have [c freec] := pencil_and_row_free coords.
+have [Q [_ assign]] := every_determinant freec (pencil_right_inverse coords obs).
 by have [rho <-] := assign g sg; exists (col_mx rho Q).
 Qed.
 
