@@ -100,6 +100,7 @@ CHANGES: dict[str, tuple[str, str]] = {
     "bad_set_one_fault": ("row_free (O S n) -> ", ""),
     "bad_set_no_zeros": (" -> zeta S = 0%N", ""),
     "bad_set_full_rank": ("(1 < r)", "(2 < r)"),
+    "bad_set_plane": ("row_free (O S n) -> ", ""),
     "zero_assignment": ("(size g <= e.+1)", "(size g <= e.+2)"),
     "recoverable_pair": ("\\rank (transfer S)", "m"),
     "canonical_form_same_a_c": ("(n < s)", "(n <= s)"),

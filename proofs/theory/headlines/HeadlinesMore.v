@@ -7,7 +7,7 @@ From faultspace Require Theorem3 GoodPairs GenericPairs WidePairs Readings Count
 From faultspace Require FaultMatrices ZeroFeedthroughUnique Trajectory SmallSystems Indices.
 From faultspace Require SystemInfiniteZeros SolutionCount ClosedForm ExceptionalPolynomial PairZeros.
 From faultspace Require ZeroAssignment EchelonForm EchelonExists Inversion TransferRank Gap Lag Chain.
-From faultspace Require Excitation WeakExcitation SharpPartner ObservablePart.
+From faultspace Require Excitation WeakExcitation SharpPartner ObservablePart BadPlane.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -236,6 +236,20 @@ Theorem bad_set_full_rank (K : fieldType) n m p (S : system K n m p) s k (Z : 'M
   (exists P : 'M_(r, k), row_free P /\ ~ same_behavior (faults_of S (P *m Z)) S) <->
   ((0 < r)%N /\ ~~ row_free (O S n)) \/ ((1 < r)%N /\ (0 < zeta S)%N).
 Proof. exact: GoodPairs.bad_pairs_of_full_rank_general. Qed.
+
+(** codimension-two, whatever r is: the bad P, over every extension L of the field, are the common zeros of the coefficients in q of D,
+    which are polynomials in the entries of P over the field, homogeneous of degree r; and x P + y Q is bad for no (x, y) but (0, 0). So for
+    r >= 1 and L algebraically closed they are a cone that meets a plane in 0 alone; that its codimension is then at least two is the
+    projective dimension theorem, which is known, and not proved here. *)
+Theorem bad_set_plane (K : fieldType) n m p (S : system K n m p) s (Z : 'M_(zeta S + \rank (transfer S), n + p)) :
+  (lag S < s)%N -> spans_solutions S s Z -> row_free Z -> row_free (O S n) -> (0 < zeta S)%N ->
+  exists (a b : 'M[K]_(zeta S, zeta S + \rank (transfer S))) (P Q : 'M[K]_(\rank (transfer S), zeta S + \rank (transfer S))),
+  forall (L : fieldType) (f : {rmorphism K -> L}),
+  let S' := System (map_mx f (sysA S)) (map_mx f (sysF S)) (map_mx f (sysC S)) (map_mx f (sysG S)) in
+  let D R := \det (col_mx ('X *: map_mx polyC (map_mx f b) - map_mx polyC (map_mx f a)) (map_mx polyC R)) in
+  (forall R, same_behavior (faults_of S' (R *m map_mx f Z)) S' <-> D R != 0) /\
+  forall x y, (x != 0) || (y != 0) -> D (x *: map_mx f P + y *: map_mx f Q) != 0.
+Proof. exact: BadPlane.bad_plane. Qed.
 
 (** ** zero-assignment *)
 

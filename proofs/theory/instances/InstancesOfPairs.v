@@ -144,6 +144,15 @@ have [S [Z [_ _ _ free span]]] := two_faults_one_zero K.
 by exists 1%N, (1 + 1)%N, (1 + 1 + 1)%N, S, 2%N, (1 + (1 + 1))%N, Z; split=> //; split=> //; exact: span.
 Qed.
 
+Theorem bad_set_plane_instance (K : fieldType) : exists n m p (S : system K n m p) s (Z : 'M_(zeta S + \rank (transfer S), n + p)),
+  (lag S < s)%N /\ spans_solutions S s Z /\ row_free Z /\ row_free (O S n) /\ (0 < zeta S)%N.
+Proof.
+have [S [_ [obs _ zeta1 _ _]]] := two_faults_one_zero K.
+have [Z [_ [_ [_ [[span free] _ _ _ _]]]]] := ExceptionalPolynomial.coordinates_exist S (isT : (1 < 2)%N).
+exists 1%N, (1 + 1)%N, (1 + 1 + 1)%N, S, 2%N, Z; split; first exact: (lag_le_n S).
+by do !split=> //; rewrite zeta1.
+Qed.
+
 (** ** zero-assignment *)
 
 Theorem zero_assignment_instance (K : fieldType) : exists n m p (S : system K n m p) s r e (Z : 'M_(e + (1 + r), n + p)) U a b
