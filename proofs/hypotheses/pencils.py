@@ -71,7 +71,8 @@ def codimension() -> Ablation[Windowed]:
     Why r, controllability and left-invertibility play no part: a hypersurface of bad P is f(P) = 0 with f irreducible, and f divides every
     coefficient of D(q; P). The bad set is invariant under P -> P V, det V = 1, so that f is a polynomial in the r x r minors of P (the
     first fundamental theorem); the coefficients are linear in these, so each is a number times f and D(q; P) = f(P) d(q), whose zeros no P
-    moves. But with (A, C) observable and zeta >= 1 every polynomial of degree at most zeta is reached.
+    moves. But with (A, C) observable and zeta >= 1 every polynomial of degree at most zeta is reached. Rocq proves, in another way, that a
+    plane of P then meets the bad ones in 0 alone; that a cone which does has codimension at least two is the projective dimension theorem.
     """
 
     def at_least_two(subject: Windowed) -> bool:
@@ -79,7 +80,9 @@ def codimension() -> Ablation[Windowed]:
         return size is None or size >= 2
 
     conclusion = Condition((), at_least_two, lambda f, s: np.asarray(f.observable & (_zeta(f) >= 1)))
-    return _of_pencils("codimension", "the bad P have codimension at least 2", conclusion, None)
+    proof = Proof(("bad_set_plane",), frozenset({"observable", "zeta >= 1"}))
+    words = "a plane meets the bad P in 0 alone, so that they have codimension at least 2"
+    return _of_pencils("codimension", words, conclusion, proof)
 
 
 def bad_of_full_rank() -> Ablation[Windowed]:
