@@ -5,7 +5,7 @@ From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice f
   mxalgebra mxpoly fraction.
 From faultspace Require Import Vocabulary StructureVocabulary.
 From faultspace Require KernelRepresentation ChangeOfState ExtremalSubspaces UnobservableZeros ZeroFeedthroughSignal SharpPartner.
-From faultspace Require ZeroAssignmentPairs Delay InputDelay DelaySharp ControlDelay.
+From faultspace Require ZeroAssignmentPairs Delay InputDelay DelaySharp ControlDelay PopovForm.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -18,6 +18,22 @@ Theorem behavior_is_kernel (K : fieldType) n m p (S : system K n m p) d (Y : 'M_
   [/\ d = (p - \rank (transfer S))%N, forall r, behavior S r <-> forall t, shifted (dsubmx Y) r t = 0
     & forall c : 'cV_p, (forall r, behavior S r -> forall t, shifted c r t = 0) <-> exists u, c = dsubmx Y *m u].
 Proof. exact: KernelRepresentation.minimal_kernel_representation. Qed.
+
+(** ** canonical-form *)
+
+(** popov-rows: whatever (A, C), n and m, the behaviours are equal iff the Popov rows of N(q) are; and every system has them. *)
+Theorem canonical_form_popov_rows (K : fieldType) n m n' m' p (S : system K n m p) (S' : system K n' m' p) d d'
+    (N : 'M_(p, d)) (N' : 'M_(p, d')) :
+  popov_rows S N -> popov_rows S' N' -> (exists e : d = d', castmx (erefl, e) N = N') <-> same_behavior S S'.
+Proof. exact: PopovForm.popov_rows_name. Qed.
+Theorem canonical_form_popov_rows_exist (K : fieldType) n m p (S : system K n m p) : exists d (N : 'M_(p, d)), popov_rows S N.
+Proof. exact: PopovForm.popov_rows_exist. Qed.
+
+(** They are the last p rows of a minimal basis Y, and so behavior_is_kernel and window_ranks_left_indices tell how many they are, that they
+    generate all equations, and their degrees. *)
+Theorem canonical_form_popov_rows_minimal (K : fieldType) n m p (S : system K n m p) d (N : 'M_(p, d)) : popov_rows S N ->
+  exists Y, [/\ minimal_basis (pencil S) Y, dsubmx Y = N & forall j, degree Y j = degree N j].
+Proof. exact: PopovForm.popov_rows_minimal. Qed.
 
 (** ** theorem-3-i, without the same (A, C) *)
 

@@ -1,6 +1,8 @@
 (** Words for the statements of HeadlinesStructure.v, beside those of Vocabulary.v.
 
                                   shifted N r t == (N(q) r)(t) = r(t) N_0 + r(t+1) N_1 + ...
+                                   popov_form N == N is reduced, with monic pivots, and its columns are ordered
+                                 popov_rows S N == N is in Popov form, and the behaviour of S is {r : N(q) r = 0}
                      inverts_from_any_state S l == from any state, l + 1 samples of zero output say that v(0) = 0
          output_nulling, largest_output_nulling == subspaces of states that can keep the output zero, and V*
     input_containing, smallest_input_containing == subspaces that no silent fault leaves, and S*
@@ -19,6 +21,20 @@ Local Open Scope ring_scope.
 (** N(q) r: the sequence r(t) N_0 + r(t+1) N_1 + ...; a column of N is one difference equation. *)
 Definition shifted (K : fieldType) p c (N : 'M[{poly K}]_(p, c)) (r : nat -> 'rV[K]_p) t : 'rV[K]_c :=
   \sum_(k < sizem N) r (t + k)%N *m map_mx (coefp k) N.
+
+(** N is in Popov form. Column j has its pivot in row pivot j: this entry is monic, no entry of the column has a higher degree, and those
+    below it have lower ones; so have, in its row, the entries of the other columns. The columns ascend by degree, and those of one degree
+    by their pivots. (The size of a polynomial is one more than its degree, and 0 for the polynomial 0.) *)
+Definition popov_form (K : fieldType) p d (N : 'M[{poly K}]_(p, d)) := exists pivot : 'I_d -> 'I_p,
+  let pivot_size j := size (N (pivot j) j) in
+  [/\ forall j, N (pivot j) j \is monic,
+    forall i j, (size (N i j) <= pivot_size j)%N /\ ((pivot j < i)%N -> (size (N i j) < pivot_size j)%N),
+    forall j k, j != k -> (size (N (pivot j) k) < pivot_size j)%N
+    & forall j k : 'I_d, (j < k)%N -> (pivot_size j < pivot_size k)%N \/ pivot_size j = pivot_size k /\ (pivot j < pivot k)%N].
+
+(** The columns of N are the Popov rows of the paper's N(q): N is in Popov form, and the behaviour is {r : N(q) r = 0}. *)
+Definition popov_rows (K : fieldType) n m p (S : system K n m p) d (N : 'M[{poly K}]_(p, d)) :=
+  popov_form N /\ forall r, behavior S r <-> forall t, shifted N r t = 0.
 
 Section Subspaces.
 Variables (K : fieldType) (n m p : nat) (S : system K n m p).
