@@ -1,10 +1,12 @@
 (** Instances for headlines on data, pairs and zeros, as InstancesOfLimits.v has them for those on limits.
 
        plain_lag == the plain system has lag 0
-    zero_at_zero == a state that gives no output and goes to 0 makes 0 a zero *)
+    zero_at_zero == a state that gives no output and goes to 0 makes 0 a zero
+        sum_rows == the Popov rows of r1(t+1) = r1(t) + r2(t) *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary StructureVocabulary ExampleVocabulary Windows InstancesOfLimits.
+From faultspace Require Import Vocabulary StructureVocabulary ExampleVocabulary PolynomialKernel Windows InstancesOfLimits.
 From faultspace Require TransferRank UnobservableZeros EchelonExists Readings FollowingExamples Theorem3 ExceptionalPolynomial Existence.
+From faultspace Require KernelRepresentation.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -158,6 +160,67 @@ move=> S; exists K, [the {rmorphism _ -> _} of idfun], 0; apply: (zero_at_zero (
 - by rewrite mul_row_block !mulmx0 !mul0mx !addr0 row_mx0.
 by rewrite mul_row_col mulmx0 mul0mx addr0.
 Qed.
+
+(** ** canonical-form *)
+
+(** r1(t+1) = r1(t) + r2(t), the sum of a fault; with as many further states as one likes. *)
+Section Sums.
+Variables (K : fieldType) (n : nat) (A : 'M[K]_n) (F : 'M[K]_(1, n)) (c : 'cV[K]_n).
+Hypotheses (Ac : A *m c = c) (Fc : F *m c = 1%:M).
+Let S : system K n 1 (1 + 1) := System A F (row_mx c 0) (row_mx 0 1%:M).
+
+Definition sum_rows : 'M[{poly K}]_(1 + 1, 1) := col_mx ('X - 1%:P)%:M (- 1%:P)%:M.
+
+Lemma sum_rows_popov : popov_form sum_rows.
+Proof.
+have top : sum_rows (lshift 1 0) 0 = 'X - 1%:P by rewrite col_mxEu mxE.
+have low : sum_rows (rshift 1 0) 0 = - 1%:P by rewrite col_mxEd mxE.
+exists (fun=> lshift 1 0); split=> [j|i j|j k|j k]; rewrite ?ord1 //; first by rewrite top monicXsubC.
+by case: (split_ordP i) => k ->; rewrite !ord1 top ?low size_XsubC // size_opp size_poly1.
+Qed.
+
+Lemma sum_rows_equation r t : shifted sum_rows r t = lsubmx (r t.+1) - (lsubmx (r t) + rsubmx (r t)).
+Proof.
+have wide : (sizem sum_rows <= 2)%N.
+  apply/bigmax_leqP => -[i j] _ /=; case: (split_ordP i) => k ->; rewrite !ord1 ?col_mxEu ?col_mxEd mxE.
+    by rewrite size_XsubC.
+  by rewrite size_opp size_poly1.
+have low : coefm 0 sum_rows = col_mx (- 1%:M) (- 1%:M).
+  by rewrite /coefm map_col_mx; congr col_mx; apply/matrixP => i j; rewrite !mxE !ord1 /= ?coefB ?coefN ?coefX ?coefC ?sub0r.
+have high : coefm 1 sum_rows = col_mx 1%:M 0.
+  rewrite /coefm map_col_mx; congr col_mx; apply/matrixP => i j; rewrite !mxE !ord1 /= ?coefB ?coefN ?coefX ?coefC ?subr0 //.
+  by rewrite oppr0.
+rewrite (KernelRepresentation.shifted_wide r t wide) big_ord_recr big_ord1 /= low high addn0 (addn1 t).
+rewrite -{1}[r t]hsubmxK -[r t.+1]hsubmxK !mul_row_col row_mxKl !mulmxN !mulmx1 mulmx0 addr0.
+by rewrite addrC opprD.
+Qed.
+
+Lemma sum_rows_of : popov_rows S sum_rows.
+Proof.
+split=> [|r]; first exact: sum_rows_popov.
+have out x v k : output S x v k = row_mx (state S x v k *m c) (v k).
+  by rewrite /output /= !mul_mx_row !mulmx0 mulmx1 add_row_mx addr0 add0r.
+have next x v k : state S x v k.+1 *m c = state S x v k *m c + v k by rewrite /= mulmxDl -!mulmxA Ac Fc mulmx1.
+split=> [[x [v e]] t|zero]; first by rewrite sum_rows_equation !e !out !row_mxKl row_mxKr next subrr.
+pose v k := rsubmx (r k); exists (lsubmx (r 0%N) *m F), v => k; rewrite out -[LHS]hsubmxK; congr row_mx.
+elim: k => [|k IH]; first by rewrite /= -mulmxA Fc mulmx1.
+by rewrite next -IH; apply/eqP; rewrite -subr_eq0 -sum_rows_equation zero.
+Qed.
+
+End Sums.
+
+Theorem canonical_form_popov_rows_instance (K : fieldType) : exists n m n' m' p (S : system K n m p) (S' : system K n' m' p) d d'
+    (N : 'M_(p, d)) (N' : 'M_(p, d')),
+  popov_rows S N /\ popov_rows S' N'.
+Proof.
+have one := @sum_rows_of K 1 1%:M 1%:M 1%:M (mul1mx _) (mul1mx _).
+have two := @sum_rows_of K (1 + 1) 1%:M (row_mx 1%:M 1%:M) (col_mx 1%:M 0) (mul1mx _).
+exists 1%N, 1%N, (1 + 1)%N, 1%N, (1 + 1)%N; do 2![eexists]; exists 1%N, 1%N, (sum_rows K), (sum_rows K); split; first exact: one.
+by apply: two; rewrite mul_row_col mulmx0 addr0 mul1mx.
+Qed.
+
+Theorem canonical_form_popov_rows_minimal_instance (K : fieldType) : exists n m p (S : system K n m p) d (N : 'M_(p, d)), popov_rows S N.
+Proof. by have [n [m [_ [_ [p [S [_ [d [_ [N [_ [rows _]]]]]]]]]]]] := canonical_form_popov_rows_instance K; exists n, m, p, S, d, N. Qed.
 
 (** ** example-v *)
 
