@@ -218,6 +218,8 @@ CHANGES: dict[str, tuple[str, str]] = {
     "mean_past_states": ("positive E -> ", ""),
     "mean_long_past": ("(n + r <= q)", "(n + r <= q.+1)"),
     "filtered_inputs": ("(later 1 e) u", "e u"),
+    "mean_two_states": ("excites E s.+3 u", "excites E s.+2 u"),
+    "prediction_errors_exist": ("excites E r u -> ", ""),
     "mean_output_error": ("excites E n.+1 u", "excites E n u"),
     "mean_signals_exist": ("order_of_spectrum E 2 u", "order_of_spectrum E 1 u"),
     "mean_noise": ("uncorrelated E u w -> ", ""),

@@ -8,7 +8,7 @@ From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice f
   matrix mxalgebra.
 From faultspace Require Import Vocabulary LimitsVocabulary StructureVocabulary MeansVocabulary ExampleVocabulary.
 From faultspace Require MeanLimits FilteredInputs ExogenousMeans PeriodicMeans PeriodicSignals PulseMeans SectionFive.
-From faultspace Require NoisyMeans PastStates PastOutputMeans FollowingMeans.
+From faultspace Require NoisyMeans PastStates PastOutputMeans FollowingMeans ErrorsReach TwoStates.
 From faultspace Require TimeAverages RudinShapiro PartOfTheRange WhiteSources ColouredFaults FollowingSources.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
@@ -81,6 +81,28 @@ Theorem filtered_inputs (K : fieldType) (E : (nat -> K) -> K -> Prop) r nu ne (A
     u e xi : mean E -> (forall t, xi t.+1 = xi t *m A + e t *m B /\ u t = xi t *m C + e t *m D) -> knows_nothing_before E (later 1 e) u ->
   quasi_stationary E (fun t => row_mx (u t) (xi t)) -> order_of_spectrum E r u.
 Proof. move=> isE model; exact: (FilteredInputs.filtered_inputs isE model). Qed.
+
+(** two-sided-two-states: two states, one input, two past inputs and s future ones; z is what the inputs make of the state. b and f are the
+    backward and the forward error of order s + 1, and c_s, the weight of u(t+s+1) in b(t), is the reflection coefficient of that order.
+    Exactly one matrix F commutes with A and takes the covariance of b(t) and x(t+1) to that of f(t) and x(t). The limit has all of the
+    range of O_s unless A is regular and A^-1 + c_s F is a multiple of the identity. *)
+Theorem mean_two_states (K : realFieldType) (E : (nat -> K) -> K -> Prop) m p (S : system K 2 m p) (B : 'M_(1, 2)) (D : 'M_(1, p))
+    u v x z y s c b d f H L :
+  mean E -> positive E -> process S B D u v x y -> stable (sysA S) -> uncorrelated E u v -> (forall t, z t.+1 = z t *m sysA S + u t *m B) ->
+  quasi_stationary E (fun t => row_mx (row_mx (u t) (v t)) (row_mx (x t) (z t))) -> excites E s.+3 u ->
+  (forall z, steered S B z) -> row_free (O S s) -> backward_error E s.+1 u c b -> forward_error E s.+1 u d f ->
+  covariance E b (later 1 x) H -> limit E (successive 0 2 u) (successive 2 s u) (successive 2 s y) L ->
+  exists2 F, forall F', F' *m sysA S = sysA S *m F' /\ covariance E f x (H *m F') <-> F' = F
+    & (L == O S s)%MS = ~~ ((sysA S \in unitmx) && is_scalar_mx (invmx (sysA S) + c s 0 0 *: F)).
+Proof.
+move=> isE pos model st uv driven quasi exciting all obs back forw bx hL;
+exact: (TwoStates.two_states isE pos model st uv driven quasi all back forw exciting obs hL bx).
+Qed.
+
+(** Inputs of which r successive ones excite have such errors of order r. *)
+Theorem prediction_errors_exist (K : fieldType) (E : (nat -> K) -> K -> Prop) nu (u : nat -> 'rV[K]_nu) r :
+  mean E -> quasi_stationary E u -> excites E r u -> (exists c b, backward_error E r u c b) /\ exists d f, forward_error E r u d f.
+Proof. move=> isE quasi; exact: (ErrorsReach.errors_exist isE quasi (ErrorsReach.combination_itself u)). Qed.
 
 (** ** proposition-1, two-sided-output-error *)
 

@@ -15,6 +15,8 @@
                   limit E Z Uf Yf L == what PI-MOESP and PO-MOESP converge to
                     white_noise E w == of unit covariance, and uncorrelated at different times
      autoregressive_input E a A u e == u is autoregressive of order a, with the innovations e
+           backward_error E r u c b == b(t) is the error of u(t), given the r inputs after it with the weights c
+            forward_error E r u d f == f(t) is the error of u(t+r), given the r inputs before it with the weights d
             order_of_spectrum E r u == the covariances of u satisfy a difference equation of order r
     noisy_process S B D u v e w x y == the equations of the system with noise e of the states and w of the outputs
                  disturbances v e w == the faults and the noise side by side
@@ -71,6 +73,13 @@ Definition white_noise a (w : nat -> 'rV[K]_a) := forall l, covariance w (later 
 Definition autoregressive_input a nu (A : nat -> 'M[K]_nu) (u e : nat -> 'rV[K]_nu) :=
   [/\ forall t, u (t + a)%N = \sum_(i < a) u (t + (a - i.+1))%N *m A i + e (t + a)%N, exists2 R, covariance e e R & R \in unitmx
     & knows_nothing_before (later 1 e) u].
+
+(** The errors of linear prediction, backward and forward: b(t) = u(t) - sum_(i < r) u(t+1+i) c_i is uncorrelated with u(t+1), ..., u(t+r),
+    and f(t) = u(t+r) - sum_(i < r) u(t+i) d_i with u(t), ..., u(t+r-1). *)
+Definition backward_error r nu (u : nat -> 'rV[K]_nu) (c : nat -> 'M_nu) (b : nat -> 'rV_nu) :=
+  (forall t, b t = u t - \sum_(i < r) u (t + i.+1)%N *m c i) /\ forall i, (0 < i <= r)%N -> covariance b (later i u) 0.
+Definition forward_error r nu (u : nat -> 'rV[K]_nu) (d : nat -> 'M_nu) (f : nat -> 'rV_nu) :=
+  (forall t, f t = u (t + r)%N - \sum_(i < r) u (t + i)%N *m d i) /\ forall i, (i < r)%N -> covariance f (later i u) 0.
 
 (** The covariances of u from lag 1 on satisfy a difference equation of order r: sum_(i <= r) a_i Cov(u(t), u(t+l+i)) = 0, a_r = 1. So they
     do where u is made of white noise by a filter of r states (filtered_inputs). *)
