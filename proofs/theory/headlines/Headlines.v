@@ -27,8 +27,8 @@ Theorem blocks_of_window (K : fieldType) n m p (S : system K n m p) s (i k : 'I_
     if (i < k)%N then sysF S *m power (k - i.+1)%N else if i == k then sysG S else 0.
 Proof. exact: WindowBlocks.window_blocks. Qed.
 
-(** The greatest common divisors of the minors, the zeros at infinity, the minimal bases and, for a white input, the limits that
-    statements below speak of are there. *)
+(** The greatest common divisors of the minors and the zeros at infinity, where the system is left-invertible, the minimal bases and, for a
+    white input, the limits that statements below speak of are there. *)
 Theorem zeros_exist (K : fieldType) n m p (S : system K n m p) :
   [/\ left_invertible S -> exists g d, gcd_of_minors (pencil S) g /\ infinite_zeros S d,
       exists g d, gcd_of_minors_of_order (n + \rank (transfer S)) (pencil S) g /\ system_infinite_zeros S d,
@@ -304,7 +304,7 @@ Theorem problem_11_dimension (K : fieldType) n m p (S : system K n m p) g d s k 
   \rank Z = (m + ((size g).-1 + d))%N <-> (lag S <= s)%N.
 Proof. move=> inv finite infinite; exact: (Readings.solution_dimension_by_zeros inv finite infinite). Qed.
 
-(** The rest of the ledger is in HeadlinesMore.v, more about limits in HeadlinesLimits.v, more about structure in HeadlinesStructure.v, the
+(** More of the ledger is in HeadlinesMore.v, more about limits in HeadlinesLimits.v, more about structure in HeadlinesStructure.v, the
     checks of certificates are in HeadlinesChecks.v, over other fields in HeadlinesFields.v, of limits in
     HeadlinesExperiments.v, consistency as means of signals in HeadlinesMeans.v; from here on all are in Headlines. *)
 Include HeadlinesMore.

@@ -61,7 +61,8 @@ Theorem autoregressive_signals_exist (K : fieldType) (alpha rho : K) H : rho ^+ 
     & forall t s, (t + s <= H)%N -> cov Q (future t s u) (future t s u) \in unitmx].
 Proof. exact: ColouredInputs.first_order_signals. Qed.
 
-(** Controllability is needed whatever the colour of u, if x(0) shares with the inputs only what came through B. *)
+(** Where (A, C) is observable on s samples, controllability is needed whatever the colour of u, if x(0) shares with the inputs only what
+    came through B. *)
 Theorem whole_range_controllable (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
     u v x y t q s L :
   process S B D u v x y -> (forall i k, (i < t + s)%N -> (k < t + s)%N -> cov Q (u i) (v k) = 0) ->
@@ -92,9 +93,10 @@ Theorem one_state_signals_exist : let S : system (field_of rat) 1 0 1 := System 
   & cov Q (u 0%N) (u 1%N) != 0].
 Proof. exists MovingAverage.Q; exact: ColouredInputs.moving_average_signals. Qed.
 
-(** u of any colour, fixed, and x(0) uncorrelated with the inputs from t - q on, as it is where the memory of u is no longer than t - q. The
-    limit has all of the range iff seen_state, a polynomial in A and B, has full rank, (A, C) being observable on s samples; on every line
-    through such a point (A, B) all but at most n t points are such; and with n past inputs that excite there is such a point. *)
+(** u of any colour, fixed, and x(0) uncorrelated with the inputs from t - q on, as it is where the memory of u is no longer than t - q.
+    The limit has all of the range iff seen_state, a polynomial in A and B, has full rank, (A, C) being observable on s samples; on every
+    line through such a point (A, B) all but at most n t points are such; and with at least one input, and n past samples of it that
+    excite, there is such a point. *)
 Theorem whole_range_seen (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p)) u v x y t q s L :
   process S B D u v x y -> (forall i k, (i < t + s)%N -> (k < t + s)%N -> cov Q (u i) (v k) = 0) ->
   (forall i, (t - q <= i < t + s)%N -> cov Q (u i) (x 0%N) = 0) -> (q <= t)%N -> cov Q (future t s u) (future t s u) \in unitmx ->

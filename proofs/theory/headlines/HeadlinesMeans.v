@@ -76,16 +76,17 @@ Proof.
 move=> isE pos model st uv driven quasi; exact: (ExogenousMeans.mean_long_past isE pos model st uv driven quasi).
 Qed.
 
-(** Where a filter of r states makes u of e, and e knows nothing of earlier inputs, as white noise does not, the spectrum is of order r. *)
+(** Where a filter of r states makes u of e, and e knows nothing of earlier inputs, as white noise does not where the filter is stable, the
+    spectrum is of order r. *)
 Theorem filtered_inputs (K : fieldType) (E : (nat -> K) -> K -> Prop) r nu ne (A : 'M_r) (B : 'M_(ne, r)) (C : 'M_(r, nu)) (D : 'M_(ne, nu))
     u e xi : mean E -> (forall t, xi t.+1 = xi t *m A + e t *m B /\ u t = xi t *m C + e t *m D) -> knows_nothing_before E (later 1 e) u ->
   quasi_stationary E (fun t => row_mx (u t) (xi t)) -> order_of_spectrum E r u.
 Proof. move=> isE model; exact: (FilteredInputs.filtered_inputs isE model). Qed.
 
 (** two-sided-two-states: two states, one input, two past inputs and s future ones; z is what the inputs make of the state. b and f are the
-    backward and the forward error of order s + 1, and c_s, the weight of u(t+s+1) in b(t), is the reflection coefficient of that order.
-    Exactly one matrix F commutes with A and takes the covariance of b(t) and x(t+1) to that of f(t) and x(t). The limit has all of the
-    range of O_s unless A is regular and A^-1 + c_s F is a multiple of the identity. *)
+    backward and the forward error of order s + 1, and c_s, the weight of u(t+s+1) in the prediction of u(t), is the reflection coefficient
+    of that order. Exactly one matrix F commutes with A and takes the covariance of b(t) and x(t+1) to that of f(t) and x(t). The limit has
+    all of the range of O_s unless A is regular and A^-1 + c_s F is a multiple of the identity. *)
 Theorem mean_two_states (K : realFieldType) (E : (nat -> K) -> K -> Prop) m p (S : system K 2 m p) (B : 'M_(1, 2)) (D : 'M_(1, p))
     u v x z y s c b d f H L :
   mean E -> positive E -> process S B D u v x y -> stable (sysA S) -> uncorrelated E u v -> (forall t, z t.+1 = z t *m sysA S + u t *m B) ->
@@ -120,7 +121,7 @@ Proof.
 move=> isE pos model st uv driven driven' quasi; exact: (ExogenousMeans.mean_output_error isE pos model st uv driven driven' quasi).
 Qed.
 
-(** There are such signals, of period 3, with an input of order 2 and another constant fault, for x(k+1) = u(k) + v(k), y = x. *)
+(** There are such signals, with an input of order 2 and averages over 3 samples, for x(k+1) = u(k) + v(k), y = x. *)
 Theorem mean_signals_exist (K : realFieldType) : let E := @period_average K in let S : system K 1 1 1 := System 0 1%:M 1%:M 0 in
   exists u v x z y : nat -> 'rV[K]_1,
   [/\ process S (1%:M : 'M_1) 0 u v x y /\ (forall t, z t.+1 = z t *m sysA S + u t *m 1%:M), uncorrelated E u v,
@@ -151,8 +152,9 @@ move=> isE model quasi uv ue uw; split=> [q s L|s Ruu Ruy W B' D' ns obs];
    exact: (NoisyMeans.noisy_regression isE model uv ue uw quasi B' D' ns obs)].
 Qed.
 
-(** A stable and the mean positive. All of the range for u autoregressive of order at most s and n past inputs, and for u of any spectrum of
-    order r and n + r past inputs; z is what the inputs make of the state. *)
+(** A stable, the mean positive, (A, B) controllable, and s successive inputs of regular covariance. All of the range for u autoregressive
+    of order at most s, s >= 1, and n past inputs, and for u of any spectrum of order r and n + r past inputs where n + s successive inputs
+    have a regular covariance, too; z is what the inputs make of the state. *)
 Theorem mean_noise_range (K : realFieldType) (E : (nat -> K) -> K -> Prop) n m p nu (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
     u v e w x z y q s L :
   mean E -> positive E -> noisy_process S B D u v e w x y -> stable (sysA S) ->

@@ -1,5 +1,5 @@
-(** The second part of Headlines.v, which includes it: the ledger from theorem-3 on, then left-invertibility in all its forms, and what else
-    the claims rest on. *)
+(** The second part of Headlines.v, which includes it: the ledger from theorem-3 on, but for what HeadlinesLimits.v, HeadlinesStructure.v
+    and HeadlinesMeans.v have, then left-invertibility in all its forms, and what else the claims rest on. *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
   mxalgebra vector fraction.
 From faultspace Require Import Vocabulary.
@@ -119,7 +119,8 @@ Theorem trajectory_no_finite_zeros (K : fieldType) n m p (S : system K n m p) g 
   left_invertible S /\ (size g).-1 = (n - \rank (O S n))%N.
 Proof. exact: Readings.recovered_blindly_by_zeros. Qed.
 
-(** ** settle-2, objection-1, objection-2, objection-3: by the theorems above. Past the paper: window-ranks *)
+(** ** settle-2, objection-1, objection-2, objection-3: by theorems of other claims, some of them below or in other files. Past the paper:
+    window-ranks *)
 
 (** ranks: etas are the left minimal indices *)
 Theorem window_ranks (K : fieldType) n m p (S : system K n m p) s :

@@ -1,8 +1,8 @@
 (** Two states, one input and two past inputs: when the limit of PI-MOESP has all of the range of O_s. The covariances of the past inputs
     with the state, the s future ones projected away, are combinations of those of the backward errors of order s and s + 1. By Levinson's
     recursion the first error is a multiple of b + k f, b and f being the backward and the forward error of order s + 1 and k the weight of
-    the last input in b. Each backward error reaches both states (ErrorsReach.v). So the two covariances are H (1 + k A F) and H A, H being
-    that of b(t) and x(t+1), and F the matrix that commutes with A and takes H to that of f(t) and x(t). *)
+    the last input in the prediction whose error b is. Each backward error reaches both states (ErrorsReach.v). So the two covariances are
+    H (1 + k A F) and H A, H being that of b(t) and x(t+1), and F the matrix that commutes with A and takes H to that of f(t) and x(t). *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum matrix
   mxalgebra zify.
 From faultspace Require Import Vocabulary Places Leads LimitsVocabulary WholeRange Controllable.

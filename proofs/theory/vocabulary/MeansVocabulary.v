@@ -82,7 +82,7 @@ Definition forward_error r nu (u : nat -> 'rV[K]_nu) (d : nat -> 'M_nu) (f : nat
   (forall t, f t = u (t + r)%N - \sum_(i < r) u (t + i)%N *m d i) /\ forall i, (i < r)%N -> covariance f (later i u) 0.
 
 (** The covariances of u from lag 1 on satisfy a difference equation of order r: sum_(i <= r) a_i Cov(u(t), u(t+l+i)) = 0, a_r = 1. So they
-    do where u is made of white noise by a filter of r states (filtered_inputs). *)
+    do where a filter of r states makes u of a signal that knows nothing of earlier inputs (filtered_inputs). *)
 Definition order_of_spectrum r nu (u : nat -> 'rV[K]_nu) := exists2 a : {poly K}, a \is monic /\ size a = r.+1 &
   forall l, covariance u (fun t => \sum_(i < r.+1) a`_i *: later (l.+1 + i)%N u t) 0.
 

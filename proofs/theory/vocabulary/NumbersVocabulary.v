@@ -1,8 +1,9 @@
 (** What the headlines on certificates over other fields (HeadlinesFields.v) speak of, beside the words of Vocabulary.v: systems told by
     lists of numbers of a kind that can be computed with, what these mean in a field, and the checks that the kernel of Rocq computes.
 
-    To know what is claimed it takes the first two parts alone, and of finite zeros polynomial_of too: which numbers there are and which
-    system a list means. The checks are functions to true or false, of which nobody needs to believe anything.
+    To know what is claimed it takes the first two parts alone, of finite zeros polynomial_of too, and number of CertificatesVocabulary.v:
+    which numbers there are and which system a list means. The checks are functions to true or false, of which nobody needs to believe
+    anything.
 
                                             arithmetic, means, residues == numbers to compute with, what they mean, integers modulo l
     fraction_in, lowest, fraction_plus, fraction_mult, fraction_inverse == rational numbers as pairs of integers

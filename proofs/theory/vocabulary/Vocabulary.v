@@ -1,12 +1,12 @@
-(** What the theorems speak of: every word that the statements of Headlines.v and HeadlinesMore.v use, and nothing else. The other files of
-    headlines have vocabularies of their own beside this one. Who has read these files and the statements knows what is claimed; the other
-    files prove it.
+(** What the theorems speak of: every word that the statements of Headlines.v and HeadlinesMore.v use, and field_of, stack and
+    reachability, which other files use. The other files of headlines have vocabularies of their own beside this one. Who has read these
+    files and the statements knows what is claimed; the other files prove it.
 
     Signals and states are row vectors, so a matrix here is the transpose of the paper's:
 
         x(k+1) = x(k) A + v(k) F,      r(k) = x(k) C + v(k) G.
 
-    Nothing is assumed: any field K, any n states, m faults, p outputs, zero included. README.md says what each word is in the paper.
+    Nothing is assumed: any field K, any n states, m faults, p outputs, zero included. README.md says what the main ones are in the paper.
 
                                               field_of T == a type that MathComp knows as a field, as that field
                           system, sysA, sysF, sysC, sysG == a system with n states, m faults and p outputs: A, F, C, G
