@@ -10,7 +10,7 @@ Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
 
 Section Pulses.
-Variable K : realFieldType.
+Variable K : fieldType.
 
 Let block_sum := @block_sum K.
 
@@ -26,9 +26,6 @@ split=> [f a b fa fb|f g a fg fa J||f g a b c fa gb J|f a fa J].
 have [M hM] := fa J.+1; exists M => i Mi; rewrite -(hM i Mi); apply: eq_bigr => j _.
 by rewrite addSn addnS.
 Qed.
-
-Lemma block_positive : positive block_sum.
-Proof. by move=> f a /(_ 0%N)[M hM]; rewrite -(hM M) //; apply: sumr_ge0 => j _; apply: sqr_ge0. Qed.
 
 (** The pulses: in block i at c(i), c = spot (h, d) being i/2 + d or i + d. *)
 Let spot (c : bool * nat) i := ((if c.1 then i./2 else i) + c.2)%N.
@@ -103,14 +100,13 @@ by apply: (mean_ext block_mean) (pulses_meet k l h h') => t; rewrite /later /P !
 Qed.
 
 (** x(k+1) = u(k) + v(k), y = x, u and v being the pulses of g, and x those a sample before. *)
-Theorem white_signals : [/\ mean block_sum, positive block_sum &
-  let S : system K 1 1 1 := System 0 1%:M 1%:M 0 in exists u v x y : nat -> 'rV[K]_1,
+Theorem white_pulses : let S : system K 1 1 1 := System 0 1%:M 1%:M 0 in exists u v x y : nat -> 'rV[K]_1,
   [/\ process S (1%:M : 'M_1) 0 u v x y, quasi_stationary block_sum (fun t => row_mx (row_mx (u t) (v t)) (x t)),
     uncorrelated block_sum u v,
     [/\ white_noise block_sum u, white_noise block_sum v, knows_nothing_before block_sum u x & knows_nothing_before block_sum v x]
-  & [/\ autoregressive_input block_sum 0 (fun=> 0) u u, excites block_sum 1 u & forall x0, steered S (1%:M : 'M_1) x0]]].
+  & [/\ autoregressive_input block_sum 0 (fun=> 0) u u, excites block_sum 1 u & forall x0, steered S (1%:M : 'M_1) x0]].
 Proof.
-split; [exact: block_mean|exact: block_positive|move=> S].
+move=> S.
 pose u := P (false, 0%N); pose v := P (true, 0%N); pose x t := P (false, 1%N) t + P (true, 1%N) t; exists u, v, x, x.
 have now (c : bool * nat) t : later 0 (P c) t = P c t by rewrite /later addn0.
 have white h : white_noise block_sum (P (h, 0%N)).
@@ -152,3 +148,14 @@ by move=> x0; exists 1%N, (fun=> x0); rewrite /= mulmx0 add0r mulmx1.
 Qed.
 
 End Pulses.
+
+(** In an ordered field the mean is positive. *)
+Lemma block_positive (K : realFieldType) : positive (@block_sum K).
+Proof. by move=> f a /(_ 0%N)[M hM]; rewrite -(hM M) //; apply: sumr_ge0 => j _; apply: sqr_ge0. Qed.
+
+Theorem white_signals (K : realFieldType) : [/\ mean (@block_sum K), positive (@block_sum K) &
+  let E := @block_sum K in let S : system K 1 1 1 := System 0 1%:M 1%:M 0 in exists u v x y : nat -> 'rV[K]_1,
+  [/\ process S (1%:M : 'M_1) 0 u v x y, quasi_stationary E (fun t => row_mx (row_mx (u t) (v t)) (x t)), uncorrelated E u v,
+    [/\ white_noise E u, white_noise E v, knows_nothing_before E u x & knows_nothing_before E v x]
+  & [/\ autoregressive_input E 0 (fun=> 0) u u, excites E 1 u & forall x0, steered S (1%:M : 'M_1) x0]]].
+Proof. by split; [exact: block_mean|exact: block_positive|exact: white_pulses]. Qed.
