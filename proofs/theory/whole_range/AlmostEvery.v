@@ -2,7 +2,8 @@
     the range of O_s for almost every (A, B). On every line through a good (A, B) all but at most n t are good, since the state enters by
     polynomials of degree t; and a chain of n delays behind the first input is good.
 
-    degree_le d M == the entries of M have degree d at most *)
+        degree_le d M == the entries of M have degree d at most
+    polynomial_in d F == the entries of F(c) are polynomials in c of degree d at most *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix
   mxalgebra zify.
 From faultspace Require Import Vocabulary Windows Places Signals Consistency Leads ExceptionalPolynomial.
@@ -43,29 +44,67 @@ End Meaning.
 Section Degrees.
 Variable K : fieldType.
 Definition degree_le d a b (M : 'M[{poly K}]_(a, b)) := forall i j, (size (M i j) <= d.+1)%N.
+Definition polynomial_in d a b (F : K -> 'M[K]_(a, b)) := exists2 M, degree_le d M & forall c, map_mx (horner_eval c) M = F c.
 
-Lemma degree_const a b (M : 'M[K]_(a, b)) : degree_le 0 (map_mx polyC M).
-Proof. by move=> i j; rewrite mxE size_polyC_leq1. Qed.
-
-Lemma degree_more d d' a b (M : 'M_(a, b)) : (d <= d')%N -> degree_le d M -> degree_le d' M.
-Proof. by move=> dd h i j; apply: leq_trans (h i j) _. Qed.
-
-Lemma degree_sum d a b (I : finType) (M : I -> 'M_(a, b)) : (forall i, degree_le d (M i)) -> degree_le d (\sum_i M i).
+Lemma polynomial_const a b (M : 'M[K]_(a, b)) : polynomial_in 0 (fun=> M).
 Proof.
-move=> h i j; rewrite summxE; apply: leq_trans (size_sum _ _ _) _; apply/bigmax_leqP => k _; exact: h.
+exists (map_mx polyC M) => [i j|c]; first by rewrite mxE size_polyC_leq1.
+by apply/matrixP=> i j; rewrite !mxE /horner_eval hornerC.
 Qed.
 
-Lemma degree_line a b (M M1 : 'M[K]_(a, b)) : degree_le 1 (map_mx polyC M + 'X *: map_mx polyC M1).
+Lemma polynomial_more d d' a b (F : K -> 'M_(a, b)) : (d <= d')%N -> polynomial_in d F -> polynomial_in d' F.
+Proof. by move=> dd [M h e]; exists M => // i j; apply: leq_trans (h i j) _. Qed.
+
+Lemma polynomial_sum d a b k (F : 'I_k -> K -> 'M_(a, b)) : (forall i, polynomial_in d (F i)) -> polynomial_in d (fun c => \sum_i F i c).
 Proof.
-move=> i j; rewrite !mxE; apply: leq_trans (size_add _ _) _; rewrite geq_max (leq_trans (size_polyC_leq1 _)) //=.
+move=> h; have [M hM] : exists M : 'I_k -> 'M_(a, b), forall i, degree_le d (M i) /\ forall c, map_mx (horner_eval c) (M i) = F i c.
+  by apply: (fin_all_exists (P := fun i M => degree_le d M /\ forall c, map_mx (horner_eval c) M = F i c)) => i; have [M] := h i; exists M.
+exists (\sum_i M i) => [i j|c]; last by rewrite raddf_sum; apply: eq_bigr => i _; have [_ /= ->] := hM i.
+by rewrite summxE; apply: leq_trans (size_sum _ _ _) _; apply/bigmax_leqP => l _; have [] := hM l.
+Qed.
+
+Lemma polynomial_line a b (M M1 : 'M[K]_(a, b)) : polynomial_in 1 (fun c => M + c *: M1).
+Proof.
+exists (map_mx polyC M + 'X *: map_mx polyC M1) => [i j|c]; last by apply/matrixP=> i j; rewrite !mxE /horner_eval !hornerE.
+rewrite !mxE; apply: leq_trans (size_add _ _) _; rewrite geq_max (leq_trans (size_polyC_leq1 _)) //=.
 apply: leq_trans (size_mul_leq _ _) _; rewrite size_polyX addSn /= addnC.
 by rewrite -[X in (_ <= X)%N]/(1 + 1)%N leq_add2r size_polyC_leq1.
 Qed.
 
-Lemma degree_mul d d' a b c (M : 'M_(a, b)) (M' : 'M_(b, c)) : degree_le d M -> degree_le d' M' -> degree_le (d + d') (M *m M').
+Lemma polynomial_mul d d' a b e (F : K -> 'M_(a, b)) (F' : K -> 'M_(b, e)) : polynomial_in d F -> polynomial_in d' F' ->
+  polynomial_in (d + d') (fun c => F c *m F' c).
 Proof.
-move=> h h' i j; rewrite mxE; apply: leq_trans (size_sum _ _ _) _; apply/bigmax_leqP => k _.
+move=> [M h eM] [M' h' eM']; exists (M *m M') => [i j|c]; last by rewrite map_mxM eM eM'.
+rewrite mxE; apply: leq_trans (size_sum _ _ _) _; apply/bigmax_leqP => k _.
 by apply: leq_trans (size_mul_leq _ _) _; rewrite -[(d + d').+1]/(d + d').+2.-1 -!subn1 leq_sub2r // -[_.+2]/(d.+1 + d').+1 -addnS leq_add.
+Qed.
+
+Lemma polynomial_scale d a b x (F : K -> 'M_(a, b)) : polynomial_in d F -> polynomial_in d (fun c => x *: F c).
+Proof.
+move=> /(polynomial_mul (polynomial_const x%:M))[M h e]; exists M => // c; by rewrite e mul_scalar_mx.
+Qed.
+
+Lemma polynomial_iter d e a n (F : K -> 'M_(a, n)) (A A1 : 'M_n) : polynomial_in d F ->
+  polynomial_in (d + e) (fun c => iter e (mulmxr (A + c *: A1)) (F c)).
+Proof.
+move=> h; elim: e => [|e IH] /=; first by rewrite addn0.
+by rewrite -addn1 addnA; apply: (polynomial_mul (F' := fun c => A + c *: A1)) IH (polynomial_line _ _).
+Qed.
+
+(** Of full rank at one point, and so at all but few. *)
+Theorem full_on_lines d a n (F : K -> 'M_(a, n)) (ts : seq K) : polynomial_in d F -> row_full (F 0) -> uniq ts ->
+  (forall c, c \in ts -> ~~ row_full (F c)) -> (size ts <= n * d)%N.
+Proof.
+move=> hF /row_fullP[P PM] ts_uniq bad; have [M hM eM] := polynomial_mul (polynomial_const P) hF; rewrite add0n in hM.
+pose D := \det M; have eval c : D.[c] = \det (P *m F c) by rewrite -eM det_map_mx.
+have D0 : D != 0.
+  apply/eqP => D0; have := eval 0; rewrite D0 horner0 PM det1 => /esym/eqP.
+  by rewrite oner_eq0.
+have size_D : (size D <= (n * d).+1)%N by have := @size_det K n M (fun=> d); rewrite sum_nat_const card_ord; apply.
+rewrite -ltnS; apply: leq_trans size_D; apply: max_poly_roots => //.
+apply/allP=> c /bad not_full; rewrite rootE eval; apply/eqP; apply: contraNeq not_full => /= unit.
+have : P *m F c \in unitmx by rewrite unitmxE unitfE.
+by rewrite -row_full_unit => full; rewrite /row_full eqn_leq rank_leq_col -[X in (X <= _)%N](eqP full) mxrankM_maxr.
 Qed.
 
 End Degrees.
@@ -74,39 +113,17 @@ Section Lines.
 Variables (K : fieldType) (N n nu : nat) (Q : 'M[K]_N) (u : nat -> 'M[K]_(N, nu)) (t q s : nat).
 Notation seen := (seen_state Q u t q s).
 
+Lemma polynomial_seen (A A1 : 'M_n) (B B1 : 'M_(nu, n)) : polynomial_in t (fun c => seen (A + c *: A1) (B + c *: B1)).
+Proof.
+apply: polynomial_sum => k; rewrite -[t in polynomial_in t]add0n.
+apply: (polynomial_mul (F' := fun c => iter (t.-1 - k) (mulmxr (A + c *: A1)) (B + c *: B1))); first exact: polynomial_const.
+apply: (polynomial_more (d := (1 + (t.-1 - k)))); first by have := ltn_ord k; lia.
+by apply: polynomial_iter; apply: polynomial_line.
+Qed.
+
 Theorem whole_range_almost_every (A A1 : 'M_n) (B B1 : 'M_(nu, n)) (ts : seq K) : row_full (seen A B) -> uniq ts ->
   (forall c, c \in ts -> ~~ row_full (seen (A + c *: A1) (B + c *: B1))) -> (size ts <= n * t)%N.
-Proof.
-case/row_fullP => P PM ts_uniq bad.
-pose const a b (M : 'M[K]_(a, b)) := map_mx polyC M.
-pose line a b (M M1 : 'M[K]_(a, b)) := const _ _ M + 'X *: const _ _ M1.
-pose coef (k : nat) := let Z := future (t - q) q u in let Uf := future t s u in
-  cov Q Z (u k) - cov Q Z Uf *m invmx (cov Q Uf Uf) *m cov Q Uf (u k).
-pose L := \sum_(k < t) const _ _ (coef k) *m iter (t.-1 - k) (mulmxr (line _ _ A A1)) (line _ _ B B1).
-pose D := \det (const _ _ P *m L).
-have eval_line c a b (M M1 : 'M[K]_(a, b)) : map_mx (horner_eval c) (line _ _ M M1) = M + c *: M1.
-  by apply/matrixP=> i j; rewrite !mxE /horner_eval !hornerE.
-have eval_const c a b (M : 'M[K]_(a, b)) : map_mx (horner_eval c) (const _ _ M) = M.
-  by apply/matrixP=> i j; rewrite !mxE /horner_eval hornerC.
-have eval c : D.[c] = \det (P *m seen (A + c *: A1) (B + c *: B1)).
-  rewrite -[D.[c]]/(horner_eval c D) -det_map_mx map_mxM eval_const; congr (\det (_ *m _)).
-  rewrite /L raddf_sum; apply: eq_bigr => k _ /=; rewrite map_mxM eval_const; congr (_ *m _).
-  by elim: (_ - _)%N => [|l IH] /=; rewrite ?eval_line // map_mxM IH eval_line.
-have D0 : D != 0.
-  apply/eqP => D0; have := eval 0; rewrite D0 horner0 !scale0r !addr0 PM det1 => /esym/eqP.
-  by rewrite oner_eq0.
-have size_D : (size D <= (n * t).+1)%N.
-  have := @size_det K n (const _ _ P *m L) (fun=> t); rewrite sum_nat_const card_ord; apply.
-  rewrite -[t]/(0 + t)%N; apply: degree_mul; first exact: degree_const.
-  apply: degree_sum => k; rewrite -[t]/(0 + t)%N; apply: degree_mul; first exact: degree_const.
-  apply: (@degree_more _ (t.-1 - k).+1); first by have := ltn_ord k; lia.
-  elim: (_ - _)%N => [|l IH] /=; first exact: degree_line.
-  by rewrite -addn1; apply: degree_mul; [exact: IH|exact: degree_line].
-rewrite -ltnS; apply: leq_trans size_D; apply: max_poly_roots => //.
-apply/allP=> c /bad not_full; rewrite rootE eval; apply/eqP; apply: contraNeq not_full => /= unit.
-have : P *m seen (A + c *: A1) (B + c *: B1) \in unitmx by rewrite unitmxE unitfE.
-by rewrite -row_full_unit => full; rewrite /row_full eqn_leq rank_leq_col -[X in (X <= _)%N](eqP full) mxrankM_maxr.
-Qed.
+Proof. by move=> full; apply: full_on_lines (polynomial_seen A A1 B B1) _; rewrite !scale0r !addr0. Qed.
 
 End Lines.
 
@@ -185,9 +202,22 @@ have [jl|/negPf jl] := eqVneq (j : nat) l.+1.
 by rewrite big1 // => k _; rewrite !mxE; have [->|/negPf kl] := eqVneq (k : nat) l; rewrite ?jl ?kl ?andbF ?mul0r ?mulr0.
 Qed.
 
-Theorem whole_range_somewhere : exists (A' : 'M[K]_n) (B' : 'M[K]_(nu, n)), row_full (seen_state Q u t q s A' B').
+Lemma delays_nilpotent l : iter l (mulmxr A) 1%:M = \matrix_(i, j) (j == i + l :> nat)%N%:R.
 Proof.
-exists A, B; apply: row_full_seen => w unseen.
+elim: l => /= [|l ->]; apply/matrixP=> i j; rewrite !mxE; first by rewrite addn0 eq_sym.
+have [jl|/negPf jl] := eqVneq (j : nat) (i + l.+1)%N.
+  have ln : (i + l < n)%N by have := ltn_ord j; lia.
+  rewrite (bigD1 (Ordinal ln)) //= big1 => [|k ne]; first by rewrite !mxE /= eqxx mul1r jl addnS eqxx addr0.
+  by rewrite !mxE (_ : (k == i + l :> nat)%N = false) ?mul0r //; apply: contraNF ne => /eqP e; apply/eqP/val_inj.
+by rewrite big1 // => k _; rewrite !mxE; have [->|/negPf kl] := eqVneq (k : nat) (i + l)%N; rewrite ?kl ?mul0r // -addnS jl mulr0.
+Qed.
+
+Theorem whole_range_delays : exists (A' : 'M[K]_n) (B' : 'M[K]_(nu, n)),
+  iter n (mulmxr A') 1%:M = 0 /\ row_full (seen_state Q u t q s A' B').
+Proof.
+exists A, B; split.
+  by rewrite delays_nilpotent; apply/matrixP=> i j; rewrite !mxE (_ : (_ == _) = false) //; have := ltn_ord j; lia.
+apply: row_full_seen => w unseen.
 have forgets k : (q <= k)%N -> iter k (mulmxr A) B = 0.
   move=> qk; rewrite delayed; apply/matrixP=> i j; rewrite !mxE (_ : (j == k :> nat) = false) ?andbF //.
   by apply/eqP; have := ltn_ord j; lia.
@@ -197,6 +227,10 @@ have := zero l lq; rewrite delayed => /matrixP/(_ (Ordinal nu0) 0); rewrite mxE 
   by rewrite addr0 mxE /= eqxx mul1r.
 by rewrite mxE /= (_ : (k == l :> nat) = false) ?mul0r //; apply/eqP; move: ne; rewrite -val_eqE /=; lia.
 Qed.
+
+
+Theorem whole_range_somewhere : exists (A' : 'M[K]_n) (B' : 'M[K]_(nu, n)), row_full (seen_state Q u t q s A' B').
+Proof. by have [A' [B' [_ full]]] := whole_range_delays; exists A', B'. Qed.
 
 End Delays.
 
