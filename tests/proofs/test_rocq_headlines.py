@@ -244,6 +244,10 @@ CHANGES: dict[str, tuple[str, str]] = {
     "time_averages_exist": ("stable (sysA S) -> ", ""),
     "noisy_signals_exist": ("stable (sysA S) -> ", ""),
     "mean_part_of_the_range": ("~ (O S 2 <= L)", "(O S 2 <= L)"),
+    "mean_rational_range": ("row_free (O S s)", "row_free (O S s.+1)"),
+    "mean_rational_order": ("(r' <= r)", "(r' < r)"),
+    "rational_almost_every": ("(size ts <= n * (q + r))", "(size ts < n * (q + r))"),
+    "mean_rational_somewhere": ("(n <= q)", "(n <= q.+1)"),
 }
 
 

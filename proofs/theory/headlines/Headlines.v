@@ -3,7 +3,7 @@
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary.
 From faultspace Require HeadlinesMore HeadlinesLimits HeadlinesStructure HeadlinesChecks HeadlinesFields HeadlinesExperiments.
-From faultspace Require HeadlinesMeans.
+From faultspace Require HeadlinesMeans HeadlinesSpectra.
 From faultspace Require Windows Infinite WindowBlocks Existence ConsistencyExamples OneSided Consistency.
 From faultspace Require Regression Controllable Leads OutputError Autoregressive Undetectable SmallSystems.
 From faultspace Require SharpWindows Theorem1Sharp Readings Lag WeakExcitation Proposition3.
@@ -306,7 +306,8 @@ Proof. move=> inv finite infinite; exact: (Readings.solution_dimension_by_zeros 
 
 (** More of the ledger is in HeadlinesMore.v, more about limits in HeadlinesLimits.v, more about structure in HeadlinesStructure.v, the
     checks of certificates are in HeadlinesChecks.v, over other fields in HeadlinesFields.v, of limits in
-    HeadlinesExperiments.v, consistency as means of signals in HeadlinesMeans.v; from here on all are in Headlines. *)
+    HeadlinesExperiments.v, consistency as means of signals in HeadlinesMeans.v, for inputs of rational spectrum in
+    HeadlinesSpectra.v; from here on all are in Headlines. *)
 Include HeadlinesMore.
 Include HeadlinesLimits.
 Include HeadlinesStructure.
@@ -314,3 +315,4 @@ Include HeadlinesChecks.
 Include HeadlinesFields.
 Include HeadlinesExperiments.
 Include HeadlinesMeans.
+Include HeadlinesSpectra.

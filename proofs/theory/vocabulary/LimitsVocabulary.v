@@ -4,7 +4,9 @@
                   similar S S' == the same (A, C) in another basis of the state
     autoregressive Q a A u e H == u is autoregressive of order a, with the innovations e, before H
             stationary Q x y H == the covariances of x and y before H depend on the difference of the times alone
-      seen_state Q u t q s A B == the covariance of q past inputs with the state, s future ones projected away *)
+      seen_state Q u t q s A B == the covariance of q past inputs with the state, s future ones projected away
+           reciprocal_at r a A == a_0 A^r + a_1 A^(r-1) + ... + a_r: the reciprocal polynomial of a, at A
+         seen_rational a R A B == the same as seen_state, for an input of rational spectrum, times reciprocal_at r a A *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg matrix.
 From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
@@ -34,3 +36,13 @@ Definition stationary (K : fieldType) N a b (Q : 'M[K]_N) (x : nat -> 'M[K]_(N, 
 Definition seen_state (K : fieldType) N n nu (Q : 'M[K]_N) (u : nat -> 'M[K]_(N, nu)) t q s (A : 'M_n) (B : 'M_(nu, n)) :=
   let Z := future (t - q) q u in let Uf := future t s u in
   \sum_(k < t) (cov Q Z (u k) - cov Q Z Uf *m invmx (cov Q Uf Uf) *m cov Q Uf (u k)) *m iter (t.-1 - k) (mulmxr A) B.
+
+(** a_0 A^r + a_1 A^(r-1) + ... + a_r: the reciprocal polynomial of a_0 + ... + a_r z^r, at A. *)
+Definition reciprocal_at (K : fieldType) n r (a : nat -> K) (A : 'M[K]_n) : 'M_n := \sum_(k < r.+1) a k *: iter (r - k) (mulmxr A) 1%:M.
+
+(** R is the covariance of r + q + s successive inputs, of which the last s are the future ones and the q before them the past ones. The
+    sum over k of seen_state for what the last q + k inputs before the present made of the state, times a_k A^(r-k): a polynomial in the
+    entries of A and B. *)
+Definition seen_rational (K : fieldType) n nu r (a : nat -> K) q s (R : 'M[K]_((r + q + s) * nu)) (A : 'M_n) (B : 'M_(nu, n)) :=
+  let u k := if insub k is Some i then (place K nu (i : 'I_(r + q + s)))^T else 0 in
+  \sum_(k < r.+1) a k *: iter (r - k) (mulmxr A) (seen_state R (fun i => u (r - k + i)%N) (q + k) q s A B).

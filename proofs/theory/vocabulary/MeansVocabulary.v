@@ -18,6 +18,7 @@
            backward_error E r u c b == b(t) is the error of u(t), given the r inputs after it with the weights c
             forward_error E r u d f == f(t) is the error of u(t+r), given the r inputs before it with the weights d
             order_of_spectrum E r u == the covariances of u satisfy a difference equation of order r
+          spectrum_equation E r a u == they satisfy that with the coefficients a_0, ..., a_r, a_r = 1
     noisy_process S B D u v e w x y == the equations of the system with noise e of the states and w of the outputs
                  disturbances v e w == the faults and the noise side by side
        period_average, time_average == the average over a period, and the limit of the averages over the times before N
@@ -85,6 +86,10 @@ Definition forward_error r nu (u : nat -> 'rV[K]_nu) (d : nat -> 'M_nu) (f : nat
     do where a filter of r states makes u of a signal that knows nothing of earlier inputs (filtered_inputs). *)
 Definition order_of_spectrum r nu (u : nat -> 'rV[K]_nu) := exists2 a : {poly K}, a \is monic /\ size a = r.+1 &
   forall l, covariance u (fun t => \sum_(i < r.+1) a`_i *: later (l.+1 + i)%N u t) 0.
+
+(** That equation with given coefficients a_0, ..., a_r = 1. *)
+Definition spectrum_equation r (a : nat -> K) nu (u : nat -> 'rV[K]_nu) :=
+  a r = 1 /\ forall l, covariance u (fun t => \sum_(i < r.+1) a i *: later (l.+1 + i)%N u t) 0.
 
 (** x(k+1) = x(k) A + u(k) B + v(k) F + e(k) and y(k) = x(k) C + u(k) D + v(k) G + w(k): noise e of the states, and w of the outputs. What
     disturbs is the faults and the noise, side by side. *)
