@@ -73,8 +73,9 @@ def _met(claim: Claim, reading: Reading, theorems: Sequence[TheoremRow]) -> str:
     if name in readings():
         case = meeting(name, refuted=refuted)
         return "" if case is None else f"`{case}`{', its counterexample' if refuted else ''}"
-    if refuted and theorems:
-        return f"the counterexample of {', '.join(f'`{one.name}`' for one in theorems)}"
+    if refuted:
+        shown = f"that `faultspace verify --claim {claim.id}` shows, with certificates"
+        return f"the counterexample {'of ' + ', '.join(f'`{one.name}`' for one in theorems) if theorems else shown}"
     if reading.hypotheses and (proved := [one.name for one in theorems if one.instance]):
         return f"what its theorems suppose can be met together, which is proved: {', '.join(f'`{name}_instance`' for name in proved)}"
     return "" if reading.hypotheses else "it supposes nothing"
@@ -117,8 +118,9 @@ def _counts(every: Sequence[ReadingRow]) -> Iterator[str]:
     proved = sum(bool(one.instance) for one in theorems)
     met = len(every) - len(empty)
     yield f"The {len(every)} readings below rest on {len(theorems)} theorems. {met} readings suppose nothing or have a case below that"
-    yield f"meets them; of {len(empty)} {NONE}: {', '.join(empty) or 'none'}. {len(theorems) - proved} theorems suppose nothing"
-    yield f"of what they are about; of each of the other {proved} it is proved that all that it supposes can be met together."
+    lacking = f"; of {len(empty)} {NONE}: {', '.join(empty)}" if empty else ""
+    yield f"meets them{lacking}. {len(theorems) - proved} theorems suppose nothing of what they are about; of each of the other {proved}"
+    yield "it is proved that all that it supposes can be met together."
     yield ""
 
 
