@@ -77,9 +77,8 @@ def tried(theory: Path, names: list[str]) -> None:
 
 @pytest.mark.timeout(900)
 def test_rocq_refuses_copies_of_a_few_headlines(theory: Path) -> None:
-    names = NAMES[::ONE_IN]
-    assert {LOCKED[name].file for name in names} == {lock.file for lock in LOCKED.values()}
-    tried(theory, names)
+    first_of_each_file = {LOCKED[name].file: name for name in reversed(NAMES)}
+    tried(theory, sorted({*NAMES[::ONE_IN], *first_of_each_file.values()}))
 
 
 @pytest.mark.slow

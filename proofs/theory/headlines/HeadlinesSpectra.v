@@ -9,9 +9,9 @@ Local Open Scope ring_scope.
 
 (** ** proposition-1, two-sided-almost-every *)
 
-(** A stable. r and a are those of an equation that the covariances of u satisfy, R is the covariance of r + q + s successive inputs. M, which
-    the limit would be if the state were measured, times reciprocal_at r a A is seen_rational, a polynomial in A and B. That has full rank
-    iff the factor is regular and the limit has all of the range. *)
+(** A stable. r and a are those of an equation that the covariances of u satisfy, R is the covariance of r + q + s successive inputs. M,
+    which the limit would be if the state were measured, times reciprocal_at r a A is seen_rational, a polynomial in A and B. That has full
+    rank iff the factor is regular and the limit has all of the range. *)
 Theorem mean_rational_range (K : realFieldType) (E : (nat -> K) -> K -> Prop) n m p nu (S : system K n m p) (B : 'M_(nu, n))
     (D : 'M_(nu, p)) u v x y q s r a R L :
   mean E -> positive E -> process S B D u v x y -> stable (sysA S) ->
