@@ -30,6 +30,7 @@ from .verdict.workbench import Workbench
 PAPER, OURS = "[G25]", "ours"
 THEORY, BEYOND = "../proofs/theory", "../proofs/theory_beyond"
 NONE = "no instance is computed"
+BY_THEOREMS = "what each of its theorems supposes can be met together"
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,7 @@ def _met(claim: Claim, reading: Reading, theorems: Sequence[TheoremRow]) -> str:
         shown = f"that `faultspace verify --claim {claim.id}` shows, with certificates"
         return f"the counterexample {'of ' + ', '.join(f'`{one.name}`' for one in theorems) if theorems else shown}"
     if reading.hypotheses and (proved := [one.name for one in theorems if one.instance]):
-        return f"what its theorems suppose can be met together, which is proved: {', '.join(f'`{name}_instance`' for name in proved)}"
+        return f"{BY_THEOREMS}, which is proved: {', '.join(f'`{name}_instance`' for name in proved)}"
     return "" if reading.hypotheses else "it supposes nothing"
 
 
@@ -114,13 +115,15 @@ def lines() -> list[str]:
 
 def _counts(every: Sequence[ReadingRow]) -> Iterator[str]:
     empty = [f"`{row.reading.id}`" for row in every if not row.met]
+    by_theorems = sum(row.met.startswith(BY_THEOREMS) for row in every)
     theorems = {one.name: one for row in every for one in row.theorems}.values()
     proved = sum(bool(one.instance) for one in theorems)
-    met = len(every) - len(empty)
+    met = len(every) - len(empty) - by_theorems
     yield f"The {len(every)} readings below rest on {len(theorems)} theorems. {met} readings suppose nothing or have a case below that"
     lacking = f"; of {len(empty)} {NONE}: {', '.join(empty)}" if empty else ""
-    yield f"meets them{lacking}. {len(theorems) - proved} theorems suppose nothing of what they are about; of each of the other {proved}"
-    yield "it is proved that all that it supposes can be met together."
+    yield f"meets them; of the theorems of {by_theorems} it is proved, one by one, that what they suppose can be met{lacking}."
+    yield f"{len(theorems) - proved} theorems suppose nothing of what they are about; of each of the other {proved} it is proved that all"
+    yield "that it supposes can be met together."
     yield ""
 
 

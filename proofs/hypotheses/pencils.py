@@ -72,7 +72,8 @@ def codimension() -> Ablation[Windowed]:
     coefficient of D(q; P). The bad set is invariant under P -> P V, det V = 1, so that f is a polynomial in the r x r minors of P (the
     first fundamental theorem); the coefficients are linear in these, so each is a number times f and D(q; P) = f(P) d(q), whose zeros no P
     moves. But with (A, C) observable and zeta >= 1 every polynomial of degree at most zeta is reached. Rocq proves, in another way, that a
-    plane of P then meets the bad ones in 0 alone; that a cone which does has codimension at least two is the projective dimension theorem.
+    plane of P then meets the bad ones in 0 alone, over every extension of the field; that a cone which does so over an algebraically closed
+    field has codimension at least two is the projective dimension theorem.
     """
 
     def at_least_two(subject: Windowed) -> bool:
@@ -81,7 +82,7 @@ def codimension() -> Ablation[Windowed]:
 
     conclusion = Condition((), at_least_two, lambda f, s: np.asarray(f.observable & (_zeta(f) >= 1)))
     proof = Proof(("bad_set_plane",), frozenset({"observable", "zeta >= 1"}))
-    words = "a plane meets the bad P in 0 alone, so that they have codimension at least 2"
+    words = "over every extension of the field a plane meets the bad P in 0 alone (and so, as is known, they have codimension at least 2)"
     return _of_pencils("codimension", words, conclusion, proof)
 
 

@@ -83,10 +83,11 @@ Theorem filtered_inputs (K : fieldType) (E : (nat -> K) -> K -> Prop) r nu ne (A
   quasi_stationary E (fun t => row_mx (u t) (xi t)) -> order_of_spectrum E r u.
 Proof. move=> isE model; exact: (FilteredInputs.filtered_inputs isE model). Qed.
 
-(** two-sided-two-states: two states, one input, two past inputs and s future ones; z is what the inputs make of the state. b and f are the
-    backward and the forward error of order s + 1, and c_s, the weight of u(t+s+1) in the prediction of u(t), is the reflection coefficient
-    of that order. Exactly one matrix F commutes with A and takes the covariance of b(t) and x(t+1) to that of f(t) and x(t). The limit has
-    all of the range of O_s unless A is regular and A^-1 + c_s F is a multiple of the identity. *)
+(** two-sided-two-states: two states, one input, two past inputs and s future ones; A is stable, (A, B) controllable, (A, C) observable on
+    s samples, and s + 3 successive inputs have a regular covariance; z is what the inputs make of the state. b and f are the backward and
+    the forward error of order s + 1, and c_s, the weight of u(t+s+1) in the prediction of u(t), is the reflection coefficient of that
+    order. Exactly one matrix F commutes with A and takes the covariance of b(t) and x(t+1) to that of f(t) and x(t). The limit has all of
+    the range of O_s unless A is regular and A^-1 + c_s F is a multiple of the identity. *)
 Theorem mean_two_states (K : realFieldType) (E : (nat -> K) -> K -> Prop) m p (S : system K 2 m p) (B : 'M_(1, 2)) (D : 'M_(1, p))
     u v x z y s c b d f H L :
   mean E -> positive E -> process S B D u v x y -> stable (sysA S) -> uncorrelated E u v -> (forall t, z t.+1 = z t *m sysA S + u t *m B) ->

@@ -238,10 +238,10 @@ Theorem bad_set_full_rank (K : fieldType) n m p (S : system K n m p) s k (Z : 'M
   ((0 < r)%N /\ ~~ row_free (O S n)) \/ ((1 < r)%N /\ (0 < zeta S)%N).
 Proof. exact: GoodPairs.bad_pairs_of_full_rank_general. Qed.
 
-(** codimension-two, whatever r is: the bad P, over every extension L of the field, are the common zeros of the coefficients in q of D,
-    which are polynomials in the entries of P over the field, homogeneous of degree r; and x P + y Q is bad for no (x, y) but (0, 0). So for
-    r >= 1 and L algebraically closed they are a cone that meets a plane in 0 alone; that its codimension is then at least two is the
-    projective dimension theorem, which is known, and not proved here. *)
+(** codimension-two, (A, C) being observable and zeta >= 1, whatever r is: the bad P, over every extension L of the field, are the common
+    zeros of the coefficients in q of D, which are polynomials in the entries of P over the field, homogeneous of degree r; and x P + y Q
+    is bad for no (x, y) but (0, 0). So for r >= 1 and L algebraically closed they are a cone that meets a plane in 0 alone; that its
+    codimension is then at least two is the projective dimension theorem, which is known, and not proved here. *)
 Theorem bad_set_plane (K : fieldType) n m p (S : system K n m p) s (Z : 'M_(zeta S + \rank (transfer S), n + p)) :
   (lag S < s)%N -> spans_solutions S s Z -> row_free Z -> row_free (O S n) -> (0 < zeta S)%N ->
   exists (a b : 'M[K]_(zeta S, zeta S + \rank (transfer S))) (P Q : 'M[K]_(\rank (transfer S), zeta S + \rank (transfer S))),

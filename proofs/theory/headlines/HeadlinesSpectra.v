@@ -10,8 +10,9 @@ Local Open Scope ring_scope.
 (** ** proposition-1, two-sided-almost-every *)
 
 (** A stable. r and a are those of an equation that the covariances of u satisfy, R is the covariance of r + q + s successive inputs. M,
-    which the limit would be if the state were measured, times reciprocal_at r a A is seen_rational, a polynomial in A and B. That has full
-    rank iff the factor is regular and the limit has all of the range. *)
+    which the limit would be if the state were measured, times reciprocal_at r a A is seen_rational, a polynomial in A and B. Where s
+    samples show all states and s successive inputs excite, that has full rank iff the factor is regular and the limit has all of the
+    range. *)
 Theorem mean_rational_range (K : realFieldType) (E : (nat -> K) -> K -> Prop) n m p nu (S : system K n m p) (B : 'M_(nu, n))
     (D : 'M_(nu, p)) u v x y q s r a R L :
   mean E -> positive E -> process S B D u v x y -> stable (sysA S) ->
@@ -25,8 +26,8 @@ Proof.
 move=> isE pos model st quasi uv spectrum; exact: (RationalMeans.rational_range isE pos model st quasi uv spectrum).
 Qed.
 
-(** An input whose covariances satisfy an equation has one for which the factor is regular at every stable A: one of least order. With it,
-    the limit has all of the range iff seen_rational has full rank. *)
+(** An input whose covariances satisfy an equation satisfies one, of no larger order, for which the factor is regular at every stable A.
+    With it, A being stable and the rest as in mean_rational_range, the limit has all of the range iff seen_rational has full rank. *)
 Theorem mean_rational_order (K : realFieldType) (E : (nat -> K) -> K -> Prop) nu (u : nat -> 'rV_nu) r :
   mean E -> positive E -> quasi_stationary E u -> order_of_spectrum E r u -> exists r' a, [/\ (r' <= r)%N, spectrum_equation E r' a u
   & forall n (A : 'M[K]_n), stable A -> reciprocal_at r' a A \in unitmx].
@@ -38,7 +39,8 @@ Theorem rational_almost_every (K : fieldType) n nu r (a : nat -> K) q s (R : 'M_
   (forall c, c \in ts -> ~~ row_full (seen_rational a R (A + c *: A1) (B + c *: B1))) -> (size ts <= n * (q + r))%N.
 Proof. exact: RationalSeen.seen_rational_almost_every. Qed.
 
-(** With at least one input and n past ones it has full rank at some (A, B), A being nilpotent. *)
+(** With at least one input, n past ones or more, and q + s successive ones that excite, it has full rank at some (A, B), A being
+    nilpotent. *)
 Theorem mean_rational_somewhere (K : fieldType) (E : (nat -> K) -> K -> Prop) n nu (u : nat -> 'rV_nu) r (a : nat -> K) q s R :
   mean E -> covariance E (successive 0 (r + q + s) u) (successive 0 (r + q + s) u) R -> excites E s u -> excites E (q + s) u ->
   a r = 1 -> (0 < nu)%N -> (n <= q)%N ->

@@ -29,8 +29,8 @@ Proof. exact: PopovForm.popov_rows_name. Qed.
 Theorem canonical_form_popov_rows_exist (K : fieldType) n m p (S : system K n m p) : exists d (N : 'M_(p, d)), popov_rows S N.
 Proof. exact: PopovForm.popov_rows_exist. Qed.
 
-(** They are the last p rows of a minimal basis Y, and so behavior_is_kernel and window_ranks_left_indices tell how many they are, that they
-    generate all equations, and their degrees. *)
+(** N is made of the last p rows of a minimal basis Y, of the same degrees, and so behavior_is_kernel and window_ranks_left_indices tell how
+    many Popov rows there are, that they generate all equations, and their degrees. *)
 Theorem canonical_form_popov_rows_minimal (K : fieldType) n m p (S : system K n m p) d (N : 'M_(p, d)) : popov_rows S N ->
   exists Y, [/\ minimal_basis (pencil S) Y, dsubmx Y = N & forall j, degree Y j = degree N j].
 Proof. exact: PopovForm.popov_rows_minimal. Qed.

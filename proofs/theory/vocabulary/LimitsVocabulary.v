@@ -6,7 +6,8 @@
             stationary Q x y H == the covariances of x and y before H depend on the difference of the times alone
       seen_state Q u t q s A B == the covariance of q past inputs with the state, s future ones projected away
            reciprocal_at r a A == a_0 A^r + a_1 A^(r-1) + ... + a_r: the reciprocal polynomial of a, at A
-         seen_rational a R A B == the same as seen_state, for an input of rational spectrum, times reciprocal_at r a A *)
+         seen_rational a R A B == for a stable A and inputs that satisfy the equation a: the covariance of q past inputs with the
+                                  state, s future ones projected away, times reciprocal_at r a A *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype bigop zmodp ssralg matrix.
 From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

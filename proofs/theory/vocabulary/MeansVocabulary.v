@@ -1,7 +1,7 @@
 (** Words for the statements about means of signals (HeadlinesMeans.v): consistency without measure theory. A signal is a sequence of row
     vectors, and a mean is any shift-invariant linear functional of sequences that is defined where it is asked for: quasi-stationary
-    signals in Ljung's sense. The limit of time averages is one (time_average) where no number is infinite, and so is the average over a
-    period (period_average). Population covariances are its values.
+    signals in Ljung's sense. The limit of time averages is one (time_average) where no number is infinite, and so is, over an ordered
+    field, the average over a period (period_average). Population covariances are its values.
 
                              mean E == E f a, read: f has the mean a, is true of one a at most, linear, and the same where f starts
                                        later
