@@ -32,6 +32,42 @@ Qed.
 
 End Unseen.
 
+(** What stands side by side with the state that the inputs make of it. *)
+Section Parts.
+Variables (K : fieldType) (a b n : nat) (u : nat -> 'rV[K]_a) (v : nat -> 'rV[K]_b) (x z : nat -> 'rV[K]_n).
+Let h t := row_mx (row_mx (u t) (v t)) (row_mx (x t) (z t)).
+
+Lemma inputs_part : combination h u.
+Proof.
+apply: combination_ext (combination_part h (col_mx (col_mx 1%:M 0) 0)) => t.
+by rewrite !mul_row_col !mulmx0 mulmx1 !addr0.
+Qed.
+Lemma states_part : combination h x.
+Proof.
+apply: combination_ext (combination_part h (col_mx 0 (col_mx 1%:M 0))) => t.
+by rewrite !mul_row_col !mulmx0 mulmx1 addr0 add0r.
+Qed.
+Lemma driven_part : combination h z.
+Proof.
+apply: combination_ext (combination_part h (col_mx 0 (col_mx 0 1%:M))) => t.
+by rewrite !mul_row_col !mulmx0 mulmx1 !add0r.
+Qed.
+Lemma undriven_part : combination h (fun t => x t - z t).
+Proof.
+apply: combination_ext (combination_add states_part (combination_mul (- 1%:M) driven_part)) => t.
+by rewrite mulmxN mulmx1.
+Qed.
+Lemma quasi_without_driven (E : (nat -> K) -> K -> Prop) : mean E -> quasi_stationary E h ->
+  quasi_stationary E (fun t => row_mx (row_mx (u t) (v t)) (x t)).
+Proof.
+move=> isE quasi; have c : combination h (fun t => row_mx (row_mx (u t) (v t)) (x t)).
+  apply: combination_ext (combination_part h (block_mx 1%:M 0 0 (col_mx 1%:M 0))) => t.
+  by rewrite mul_row_block mul_row_col !mulmx0 !mulmx1 !addr0 add0r.
+by move=> l; apply: (combination_covariance isE quasi c (combination_later l c)).
+Qed.
+
+End Parts.
+
 Section Exogenous.
 Variables (K : realFieldType) (E : (nat -> K) -> K -> Prop) (n m p nu : nat) (S : system K n m p) (B : 'M[K]_(nu, n)) (D : 'M[K]_(nu, p)).
 Variables (u : nat -> 'rV[K]_nu) (v : nat -> 'rV[K]_m) (x z : nat -> 'rV[K]_n) (y : nat -> 'rV[K]_p).
@@ -42,34 +78,11 @@ Section LongPast.
 Hypothesis quasi : quasi_stationary E (fun t => row_mx (row_mx (u t) (v t)) (row_mx (x t) (z t))).
 Let h t := row_mx (row_mx (u t) (v t)) (row_mx (x t) (z t)).
 
-Let cu : combination h u.
-Proof.
-apply: combination_ext (combination_part h (col_mx (col_mx 1%:M 0) 0)) => t.
-by rewrite !mul_row_col !mulmx0 mulmx1 !addr0.
-Qed.
-Let cx : combination h x.
-Proof.
-apply: combination_ext (combination_part h (col_mx 0 (col_mx 1%:M 0))) => t.
-by rewrite !mul_row_col !mulmx0 mulmx1 addr0 add0r.
-Qed.
-Let cz : combination h z.
-Proof.
-apply: combination_ext (combination_part h (col_mx 0 (col_mx 0 1%:M))) => t.
-by rewrite !mul_row_col !mulmx0 mulmx1 !add0r.
-Qed.
-Let cd : combination h (fun t => x t - z t).
-Proof.
-apply: combination_ext (combination_add cx (combination_mul (- 1%:M) cz)) => t.
-by rewrite mulmxN mulmx1.
-Qed.
-
-Let quasi_x : quasi_stationary E (fun t => row_mx (row_mx (u t) (v t)) (x t)).
-Proof.
-have c : combination h (fun t => row_mx (row_mx (u t) (v t)) (x t)).
-  apply: combination_ext (combination_part h (block_mx 1%:M 0 0 (col_mx 1%:M 0))) => t.
-  by rewrite mul_row_block mul_row_col !mulmx0 !mulmx1 !addr0 add0r.
-by move=> l; apply: (combination_covariance isE quasi c (combination_later l c)).
-Qed.
+Let cu : combination h u := inputs_part u v x z.
+Let cx : combination h x := states_part u v x z.
+Let cz : combination h z := driven_part u v x z.
+Let cd : combination h (fun t => x t - z t) := undriven_part u v x z.
+Let quasi_x := quasi_without_driven isE quasi.
 
 Theorem mean_long_past q s r L : order_of_spectrum E r u -> (n + r <= q)%N -> excites E s u -> excites E (n + s) u ->
   (forall z, steered S B z) -> limit E (successive 0 q u) (successive q s u) (successive q s y) L -> (L == O S s)%MS.

@@ -110,33 +110,11 @@ Hypotheses (driven : forall t, z t.+1 = z t *m sysA S + u t *m B).
 Hypothesis quasi : quasi_stationary E (fun t => row_mx (row_mx (u t) (v t)) (row_mx (x t) (z t))).
 Let h t := row_mx (row_mx (u t) (v t)) (row_mx (x t) (z t)).
 
-Let cu : combination h u.
-Proof.
-apply: combination_ext (combination_part h (col_mx (col_mx 1%:M 0) 0)) => t.
-by rewrite !mul_row_col !mulmx0 mulmx1 !addr0.
-Qed.
-Let cx : combination h x.
-Proof.
-apply: combination_ext (combination_part h (col_mx 0 (col_mx 1%:M 0))) => t.
-by rewrite !mul_row_col !mulmx0 mulmx1 addr0 add0r.
-Qed.
-Let cz : combination h z.
-Proof.
-apply: combination_ext (combination_part h (col_mx 0 (col_mx 0 1%:M))) => t.
-by rewrite !mul_row_col !mulmx0 mulmx1 !add0r.
-Qed.
-Let cd : combination h (fun t => x t - z t).
-Proof.
-apply: combination_ext (combination_add cx (combination_mul (- 1%:M) cz)) => t.
-by rewrite mulmxN mulmx1.
-Qed.
-Let quasi_x : quasi_stationary E (fun t => row_mx (row_mx (u t) (v t)) (x t)).
-Proof.
-have c : combination h (fun t => row_mx (row_mx (u t) (v t)) (x t)).
-  apply: combination_ext (combination_part h (block_mx 1%:M 0 0 (col_mx 1%:M 0))) => t.
-  by rewrite mul_row_block mul_row_col !mulmx0 !mulmx1 !addr0 add0r.
-by move=> l; apply: (combination_covariance isE quasi c (combination_later l c)).
-Qed.
+Let cu : combination h u := inputs_part u v x z.
+Let cx : combination h x := states_part u v x z.
+Let cz : combination h z := driven_part u v x z.
+Let cd : combination h (fun t => x t - z t) := undriven_part u v x z.
+Let quasi_x := quasi_without_driven isE quasi.
 
 (** What is a combination of inputs. *)
 Section Inputs.
