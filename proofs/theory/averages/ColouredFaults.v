@@ -1,6 +1,7 @@
 (** v(t) = f(t+2) + f(t) for a white f: a coloured fault that is uncorrelated with the input. With past outputs among the instruments the
-    limit leaves the range of O_s, for a white input and every stable system with one fault, F other than 0 and G = 0, whose states are
-    measured; and for the input and the system of PartOfTheRange.v, where past inputs alone do not show all of the range either. *)
+    limit, with a past sample and two future ones or more, leaves the range of O_s, for a white input and every stable system with one
+    fault, F other than 0 and G = 0, whose states are measured; and for the input and the system of PartOfTheRange.v, where past inputs
+    alone do not show all of the range either. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
 From faultspace Require Import Vocabulary LimitsVocabulary MeansVocabulary ExampleVocabulary Means MeanLimits LongPast.
 From faultspace Require Import TimeAverages RudinShapiro Responses WhiteMeans PastOutputMeans PartOfTheRange OrderNames.

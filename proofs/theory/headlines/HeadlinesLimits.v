@@ -70,8 +70,8 @@ Theorem whole_range_controllable (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : s
   projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> (L == O S s)%MS -> forall z, steered S B z.
 Proof. move=> model uv start qt; exact: (WholeRange.whole_range_needs_controllability model qt uv start). Qed.
 
-(** One state and u of any colour: all of the range as soon as B is not zero. z is what the inputs have made of the state, stationary; the
-    present is t + 1, and the inputs from t to t + s excite. *)
+(** One state, A stable, a past input, and u of any colour and uncorrelated with v: all of the range as soon as B is not zero. z is what
+    the inputs have made of the state, stationary; the present is t + 1, and the inputs from t to t + s excite. *)
 Theorem whole_range_one_state (K : realFieldType) N m p nu (Q : 'M[K]_N) (S : system K 1 m p) (B : 'M_(nu, 1)) (D : 'M_(nu, p))
     u v x z y t q s L : let H := (t.+1 + s)%N in
   Q^T = Q -> (forall g : 'cV_N, 0 <= cov Q g g 0 0) -> process S B D u v x y -> `|sysA S 0 0| < 1 ->
@@ -166,7 +166,8 @@ Proof. exact: LimitExamples.coloured_signals_stationary. Qed.
 
 (** ** settle-1: v(k) = u(k-1) Phi, u white; w(k) stands for u(k-1) *)
 
-(** Not both: the limit in the range of O_s, and B, D among the best fits by output error. Unless the fault is never seen. *)
+(** With a past input, s >= 1, and all states shown by s - 1 samples and by k: not both, the limit in the range of O_s, and B, D among the
+    best fits by output error. Unless the fault is never seen. *)
 Theorem settle_1_not_both (K : realFieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
     (Phi : 'M_(nu, m)) u w x y H t q s L t' k :
   process S B D u (fun k => w k *m Phi) x y -> (forall k, w k.+1 = u k) -> white Q u H -> Q^T = Q ->

@@ -52,8 +52,8 @@ Theorem mean_autoregressive (K : fieldType) (E : (nat -> K) -> K -> Prop) n m p 
   (forall z, steered S B z) -> limit E (successive 0 q u) (successive q s u) (successive q s y) L -> (L == O S s)%MS.
 Proof. move=> isE model quasi; exact: (MeanLimits.mean_autoregressive isE model quasi). Qed.
 
-(** Where A is stable: faults that are uncorrelated at different times know nothing of the states before, and innovations of order a
-    nothing of those a samples before and earlier. *)
+(** Where A is stable, and faults and inputs are uncorrelated at all lags: faults that are uncorrelated at different times know nothing of
+    the states before, and innovations of order a nothing of those a samples before and earlier. *)
 Theorem mean_past_states (K : realFieldType) (E : (nat -> K) -> K -> Prop) n m p nu (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
     u v x y :
   mean E -> positive E -> process S B D u v x y -> stable (sysA S) ->
@@ -269,8 +269,9 @@ Proof. exact: ColouredFaults.neither_right. Qed.
 
 (** ** settle-1, not-both *)
 
-(** v(t+1) = u(t) Phi, u white; w(t+1) stands for u(t), z is the state of the model with the true B. Not both: the limit in the range of
-    O_s, and B, D among the best fits by output error, the models being run for ever. Unless the fault is never seen. *)
+(** v(t+1) = u(t) Phi, u white; w(t+1) stands for u(t), z is the state of the model with the true B. With a past input, s >= 1 and
+    all states shown by s - 1 samples: not both, the limit in the range of O_s, and B, D among the best fits by output error, the models
+    being run for ever. Unless the fault is never seen. *)
 Theorem mean_settle_1_not_both (K : realFieldType) (E : (nat -> K) -> K -> Prop) n m p nu (S : system K n m p) (B : 'M_(nu, n))
     (D : 'M_(nu, p)) (Phi : 'M_(nu, m)) u w x z y q s L R :
   mean E -> positive E -> process S B D u (fun t => w t *m Phi) x y -> (forall t, w t.+1 = u t) -> stable (sysA S) -> white_noise E u ->

@@ -1,5 +1,5 @@
-(** What n samples of the input reach, more do not: so with n past inputs as instruments or more, the limit of PI-MOESP with a white
-    input is right iff (A, B seen) is controllable in the usual sense: inputs lead from rest to every state.
+(** What n samples of the input reach, more do not: so with n past inputs as instruments or more, the limit of PI-MOESP with a white input
+    is right, where s samples show all states, iff (A, B seen) is controllable in the usual sense: inputs lead from rest to every state.
 
     controllable S B == inputs through B lead from rest to every state *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra.

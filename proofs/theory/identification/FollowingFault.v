@@ -1,6 +1,6 @@
 (** A fault that follows a white input, v(k) = u(k-1) Phi, given as w(k) Phi with w(k+1) = u(k). If the limit of PI-MOESP lies in the range
-    of O_s all the same, then some d has d A = Phi F and d C = Phi G, and the fault acts as B + d would do without it: so B and D by output
-    error are B + d and D, and right only if the fault is never seen.
+    of O_s all the same, with a past input and all states shown by s - 1 samples, s >= 1, then some d has d A = Phi F and d C = Phi G, and
+    the fault acts as B + d would do without it: so B and D by output error are B + d and D, and right only if the fault is never seen.
 
     first_response S B Phi s == the first s samples of the response to a pulse of u before the window *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop finset order zmodp ssralg finalg ssrnum
@@ -125,7 +125,7 @@ Qed.
 
 End White.
 
-(** Not both: range in that of O_s, and B, D right by output error, summed over several times. *)
+(** Not both, under these conditions: range in that of O_s, and B, D right by output error, summed over several times. *)
 Theorem not_both_in_sum (K : realFieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
     (Phi : 'M_(nu, m)) (u w : nat -> 'M[K]_(N, nu)) x y H t q s L t' ks k :
   process S B D u (fun k => w k *m Phi) x y -> (forall k, w k.+1 = u k) -> white Q u H -> Q^T = Q ->

@@ -1,6 +1,7 @@
 (** A fault that leads a white input, v(k) = sum_(j < J) u(k+j) Phi_j, uncorrelated with the input's past when Phi_0 = 0. What u does to y
-    is what B + sum_j Phi_j F A^j and D + Phi_0 G + sum_(j >= 1) Phi_j F A^(j-1) C would do without a fault. So the limit of
-    PI-MOESP is a product with O_s still, of rank n iff A is controllable from this seen B, which is not the true one.
+    is what B + sum_j Phi_j F A^j and D + Phi_0 G + sum_(j >= 1) Phi_j F A^(j-1) C would do without a fault. So the limit of PI-MOESP is a
+    product with O_s still, of rank n, where s samples show all states and with n past inputs or more, iff A is controllable from this seen
+    B, which is not the true one.
 
        steered_space S B q == the row space of B, BA, ..., BA^(q-1): the states that q inputs through B lead to
     reach_rows S B J Phi q == B seen A^(q-1), ..., B seen: times O_s, the limit of PI-MOESP with q past inputs *)

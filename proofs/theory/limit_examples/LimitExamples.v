@@ -1,7 +1,7 @@
-(** Examples about limits. Measurement noise is a fault with F = 0 and G = 1, so the theorems, which have no noise, lose nothing by that.
-    A = a, F = 1, C = [1 0], G = [0 1] in rows and v(k) = u(k+1), u white: with B = b the limit has all of the range of O_s where
-    b and a + b are not zero, and the best fit of B and D is still wrong. The signals of the example with a coloured input are
-    stationary at the times 0..3 that its limit is made of. *)
+(** Examples about limits. Measurement noise is a fault with F = 0 and G = 1, so theorems about faults that are uncorrelated with the
+    inputs lose nothing by having no noise. A = a, F = 1, C = [1 0], G = [0 1] in rows and v(k) = u(k+1), u white: with B = b the limit has
+    all of the range of O_s where b and a + b are not zero, and the best fit of B and D is still wrong. The signals of the example with a
+    coloured input are stationary at the times 0..3 that its limit is made of. *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice path div fintype tuple finfun bigop prime finset order
   generic_quotient perm zmodp countalg ssralg finalg poly polydiv ssrnum ssrint rat matrix mxalgebra mxpoly vector fraction interval.
 From faultspace Require Import Vocabulary Basics Windows Signals Leads Controllable ConsistencyExamples.

@@ -1,6 +1,7 @@
 (** Faults that are uncorrelated with the inputs at all lags, A stable: what is left of the state without its inputs is uncorrelated with
-    the inputs. So the limit of PI-MOESP has all of the range of O_s where n + r past inputs are taken (LongPast.v); and output error gives
-    the true B and D, and no others where n + 1 successive inputs have a regular covariance. *)
+    the inputs. So the limit of PI-MOESP has all of the range of O_s where (A, B) is controllable, the spectrum of u has order r, n + r
+    past inputs are taken and n + s successive ones excite (LongPast.v); and output error gives the true B and D, and no others where (A,
+    C) is observable and n + 1 successive inputs have a regular covariance. *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop order zmodp ssralg finalg ssrnum matrix
   mxalgebra zify.
 From faultspace Require Import Vocabulary Consistency Leads LimitsVocabulary WholeRange Controllable Regression.

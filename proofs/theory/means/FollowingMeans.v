@@ -1,5 +1,5 @@
-(** A fault that follows a white input, v(k+1) = u(k) Phi, in means: never both are right, the range and output error, unless the fault is
-    never seen. *)
+(** A fault that follows a white input, v(k+1) = u(k) Phi, in means: with a past input, s >= 1 and all states shown by s - 1 samples, never
+    both are right, the range and output error, unless the fault is never seen. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
 From faultspace Require Import Vocabulary FollowingFault Regression.
 From faultspace Require Import MeansVocabulary Means MeanLimits Forgetting LongPast PastStates WhiteMeans OrderNames.

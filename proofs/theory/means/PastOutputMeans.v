@@ -1,6 +1,7 @@
 (** Past outputs among the instruments, and faults that are uncorrelated with the inputs but coloured. Where all states are measured, the
-    limit leaves the range of O_s as soon as F shows a fault that is correlated with itself two samples later and not from three samples on,
-    G = 0 and A being stable: the fault is seen in past outputs, and acts in the future ones as no state does. *)
+    limit, with a past sample and two future ones or more, leaves the range of O_s as soon as F shows a fault that is correlated with
+    itself two samples later and not from three samples on, G = 0 and A being stable: the fault is seen in past outputs, and acts in the
+    future ones as no state does. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
 From faultspace Require Import Vocabulary Places Consistency WholeRange MeansVocabulary Means LongPast PastStates.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

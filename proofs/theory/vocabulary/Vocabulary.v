@@ -215,7 +215,8 @@ Variables (K : fieldType) (a b : nat) (P : 'M[{poly K}]_(a, b)).
 (** g divides all minors of P with as many rows as P has. *)
 Definition divides_minors (g : {poly K}) := forall f : 'I_a -> 'I_b, g %| \det (colsub f P).
 
-(** g is their greatest common divisor: its roots are the finite zeros, its degree their number. *)
+(** g is their greatest common divisor. Of the pencil of a left-invertible system its roots are the finite zeros, in extensions of the field
+    too, and its degree is their number; it is 0 where the system is not left-invertible. *)
 Definition gcd_of_minors g := divides_minors g /\ forall h, divides_minors h -> h %| g.
 
 End Minors.

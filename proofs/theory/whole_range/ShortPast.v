@@ -1,7 +1,7 @@
-(** An input that is autoregressive of order at most s, all stationary: n past inputs are enough for all of the range of O_s. What the s
-    inputs after it do not tell of an input, eb, is uncorrelated with all later inputs, and so cov (eb(k), x(k+1+d)) = Gamma A^d with the
-    same Gamma at all times. A direction that the limit with n past inputs does not see is orthogonal to all Gamma A^d, so the limit with
-    any number of past inputs does not see it either. *)
+(** An input that is autoregressive of order at most s, all stationary and (A, B) controllable: n past inputs are enough for all of the
+    range of O_s. What the s inputs after it do not tell of an input, eb, is uncorrelated with all later inputs, and so cov (eb(k),
+    x(k+1+d)) = Gamma A^d with the same Gamma at all times. A direction that the limit with n past inputs does not see is orthogonal to all
+    Gamma A^d, so the limit with any number of past inputs does not see it either. *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
   zify.
 From faultspace Require Import Vocabulary Signals Consistency Leads Controllable.
