@@ -29,6 +29,8 @@ Proof. exact: LimitExamples.noise_is_a_fault. Qed.
 
 (** ** proposition-1, all of the range *)
 
+(** In this section u and v are uncorrelated at all times before t + s. *)
+
 (** u autoregressive of order a, (A, B) controllable, and n + a past inputs: all of the range, where Uf excites. Neither stationarity nor
     observability is asked. What x(0) is made of is before the innovations e(a), e(a+1), ..., and so uncorrelated with them. *)
 Theorem whole_range_autoregressive (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
@@ -95,8 +97,8 @@ Proof. exists MovingAverage.Q; exact: ColouredInputs.moving_average_signals. Qed
 
 (** u of any colour, fixed, and x(0) uncorrelated with the inputs from t - q on, as it is where the memory of u is no longer than t - q.
     The limit has all of the range iff seen_state, a polynomial in A and B, has full rank, (A, C) being observable on s samples; on every
-    line through such a point (A, B) all but at most n t points are such; and with at least one input, and n past samples of it that
-    excite, there is such a point. *)
+    line through such a point (A, B) all but at most n t points are such; and with at least one input, n past samples or more, and regular
+    covariances of the s future inputs and of the q + s past and future ones together, there is such a point. *)
 Theorem whole_range_seen (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p)) u v x y t q s L :
   process S B D u v x y -> (forall i k, (i < t + s)%N -> (k < t + s)%N -> cov Q (u i) (v k) = 0) ->
   (forall i, (t - q <= i < t + s)%N -> cov Q (u i) (x 0%N) = 0) -> (q <= t)%N -> cov Q (future t s u) (future t s u) \in unitmx ->

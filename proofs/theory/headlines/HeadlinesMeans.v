@@ -52,8 +52,8 @@ Theorem mean_autoregressive (K : fieldType) (E : (nat -> K) -> K -> Prop) n m p 
   (forall z, steered S B z) -> limit E (successive 0 q u) (successive q s u) (successive q s y) L -> (L == O S s)%MS.
 Proof. move=> isE model quasi; exact: (MeanLimits.mean_autoregressive isE model quasi). Qed.
 
-(** Where A is stable, and faults and inputs are uncorrelated at all lags: faults that are uncorrelated at different times know nothing of
-    the states before, and innovations of order a nothing of those a samples before and earlier. *)
+(** Where the mean is positive, A stable, and faults and inputs are uncorrelated at all lags: faults that are uncorrelated at different
+    times know nothing of the states before, and innovations of order a nothing of those a samples before and earlier. *)
 Theorem mean_past_states (K : realFieldType) (E : (nat -> K) -> K -> Prop) n m p nu (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
     u v x y :
   mean E -> positive E -> process S B D u v x y -> stable (sysA S) ->
@@ -76,8 +76,8 @@ Proof.
 move=> isE pos model st uv driven quasi; exact: (ExogenousMeans.mean_long_past isE pos model st uv driven quasi).
 Qed.
 
-(** Where a filter of r states makes u of e, and e knows nothing of earlier inputs, as white noise does not where the filter is stable, the
-    spectrum is of order r. *)
+(** Where a filter of r states makes u of e, and e knows nothing of earlier inputs, as white noise does not where the filter is stable and
+    the mean positive, the spectrum is of order r. *)
 Theorem filtered_inputs (K : fieldType) (E : (nat -> K) -> K -> Prop) r nu ne (A : 'M_r) (B : 'M_(ne, r)) (C : 'M_(r, nu)) (D : 'M_(ne, nu))
     u e xi : mean E -> (forall t, xi t.+1 = xi t *m A + e t *m B /\ u t = xi t *m C + e t *m D) -> knows_nothing_before E (later 1 e) u ->
   quasi_stationary E (fun t => row_mx (u t) (xi t)) -> order_of_spectrum E r u.

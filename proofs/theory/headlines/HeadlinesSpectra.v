@@ -1,5 +1,6 @@
 (** The ninth part of Headlines.v, which includes it: inputs of any rational spectrum, a long memory included, in the language of
-    HeadlinesMeans.v. The limit of PI-MOESP has all of the range of O_s for almost every (A, B). *)
+    HeadlinesMeans.v. With n past inputs or more, u and v uncorrelated and an input that excites, the limit of PI-MOESP has all of the
+    range of O_s for almost every (A, B). *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg ssrnum matrix mxalgebra.
 From faultspace Require Import Vocabulary LimitsVocabulary MeansVocabulary.
 From faultspace Require RationalSeen RationalMeans LeastOrder.
@@ -9,10 +10,10 @@ Local Open Scope ring_scope.
 
 (** ** proposition-1, two-sided-almost-every *)
 
-(** A stable. r and a are those of an equation that the covariances of u satisfy, R is the covariance of r + q + s successive inputs. M,
-    which the limit would be if the state were measured, times reciprocal_at r a A is seen_rational, a polynomial in A and B. Where s
-    samples show all states and s successive inputs excite, that has full rank iff the factor is regular and the limit has all of the
-    range. *)
+(** A stable, u and v uncorrelated at all lags. r and a are those of an equation that the covariances of u satisfy, R is the covariance of
+    r + q + s successive inputs. M, which the limit would be if the state were measured, times reciprocal_at r a A is seen_rational, a
+    polynomial in A and B. Where s samples show all states and s successive inputs excite, that has full rank iff the factor is regular and
+    the limit has all of the range. *)
 Theorem mean_rational_range (K : realFieldType) (E : (nat -> K) -> K -> Prop) n m p nu (S : system K n m p) (B : 'M_(nu, n))
     (D : 'M_(nu, p)) u v x y q s r a R L :
   mean E -> positive E -> process S B D u v x y -> stable (sysA S) ->
@@ -39,7 +40,7 @@ Theorem rational_almost_every (K : fieldType) n nu r (a : nat -> K) q s (R : 'M_
   (forall c, c \in ts -> ~~ row_full (seen_rational a R (A + c *: A1) (B + c *: B1))) -> (size ts <= n * (q + r))%N.
 Proof. exact: RationalSeen.seen_rational_almost_every. Qed.
 
-(** With at least one input, n past ones or more, and q + s successive ones that excite, it has full rank at some (A, B), A being
+(** With at least one input, n past ones or more, and s and q + s successive ones that excite, it has full rank at some (A, B), A being
     nilpotent. *)
 Theorem mean_rational_somewhere (K : fieldType) (E : (nat -> K) -> K -> Prop) n nu (u : nat -> 'rV_nu) r (a : nat -> K) q s R :
   mean E -> covariance E (successive 0 (r + q + s) u) (successive 0 (r + q + s) u) R -> excites E s u -> excites E (q + s) u ->

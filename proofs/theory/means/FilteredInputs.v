@@ -1,5 +1,6 @@
-(** An input that a filter of r states makes of a signal of which it knows nothing beforehand, white noise for one, has a spectrum of order
-    r: from lag 1 on its covariances are responses of the filter, and the characteristic polynomial of the filter annihilates them. *)
+(** An input that a filter of r states makes of a signal of which it knows nothing beforehand, white noise for one where the filter is
+    stable and the mean positive, has a spectrum of order r: from lag 1 on its covariances are responses of the filter, and the
+    characteristic polynomial of the filter annihilates them. *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg poly matrix.
 From faultspace Require Import Reachable MeansVocabulary Means Forgetting.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -1,7 +1,7 @@
 (** An input of any colour, fixed, and the state at time 0 uncorrelated with the inputs that the limit of PI-MOESP is made of: it has all
-    of the range of O_s, with at least one input and n past samples of it that excite, for almost every (A, B). On every line through a
-    good (A, B) all but at most n t are good, since the state enters by polynomials of degree t; and a chain of n delays behind the first
-    input is good.
+    of the range of O_s, with at least one input, n past samples or more, and regular covariances of the s future inputs and of the past
+    and future ones together, for almost every (A, B). On every line through a good (A, B) all but at most n t are good, since the state
+    enters by polynomials of degree t; and a chain of n delays behind the first input is good.
 
         degree_le d M == the entries of M have degree d at most
     polynomial_in d F == the entries of F(c) are polynomials in c of degree d at most *)

@@ -1,7 +1,8 @@
-(** When the limit of PI-MOESP has all of the range of O_s, the faults being uncorrelated with the inputs. It never has more than what the
-    inputs reach. It has all that they reach if the input is autoregressive of order a and there are n + a past inputs: a state direction w
-    that the limit does not see makes x(t) w a combination of the future inputs, up to something that the past and future inputs know
-    nothing of; the innovation of each of these times, the last one first, then tells that its input has no part in that. *)
+(** When the limit of PI-MOESP has all of the range of O_s, the faults being uncorrelated with the inputs. It has no more than what the
+    inputs reach, if x(0) shares with the inputs only what they reach. It has all that they reach if the input is autoregressive of order a
+    and there are n + a past inputs: a state direction w that the limit does not see makes x(t) w a combination of the future inputs, up to
+    something that the past and future inputs know nothing of; the innovation of each of these times, the last one first, then tells that
+    its input has no part in that. *)
 From mathcomp Require Import ssreflect ssrbool ssrfun eqtype ssrnat seq choice fintype finfun bigop zmodp ssralg finalg matrix mxalgebra
   zify.
 From faultspace Require Import Vocabulary Places Signals Consistency Leads Persistency Controllable LimitsVocabulary.
