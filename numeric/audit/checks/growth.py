@@ -195,7 +195,7 @@ def stepping(shape: tuple[int, int]) -> Array:
     return np.repeat(STEP * (np.arange(shape[0]) // LASTS % 2)[:, None], shape[1], axis=1).astype(float)
 
 
-def _model_off(kind: str, arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
+def model_off(kind: str, arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
     model = _whole_numbers(kind).model
     assert model is not None
     n, n_u, p = model.order, model.B.ncols, model.C.nrows
@@ -248,7 +248,7 @@ def as_signal(answer: Any, shape: tuple[int, ...]) -> Array:
 
 
 _OFF: dict[str, Callable[[str, tuple[Any, ...], Any], Iterator[Measurement]]] = {
-    "identify": _model_off,
+    "identify": model_off,
     "residual": _residual_off,
     "window_ranks": _ranks_off,
     "fault_dimension": _count_off,

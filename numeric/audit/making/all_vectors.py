@@ -45,7 +45,7 @@ from ..vectors.trouble import document as trouble_document
 from .all_troubles import drawn_troubles
 from .drawing import drawn, stable, upward
 from .fault_records import fault_vectors, noisy_vectors, unexciting_vectors
-from .model_bounds import model_bounds
+from .model_bounds import bounded, model_bounds
 
 # -- identification -----------------------------------------------------------------------------------------------------------------
 
@@ -92,7 +92,7 @@ def _bounded(blank: IdentificationVector) -> IdentificationVector:
         for slug, (first, last) in cuts.items()
         if last - first >= needed
     }
-    return replace(blank, bounds=model_bounds(blank, y, u), parts=parts)
+    return replace(bounded(blank), parts=parts)
 
 
 # -- structure ----------------------------------------------------------------------------------------------------------------------

@@ -18,6 +18,7 @@ import numpy as np
 from faultspace.exact.system.systems import ResidualSystem
 
 from ..checks.catalogue import all_checks
+from ..checks.refusals import same_output_twice
 from ..records import Demand
 from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import IdentificationVector, shipped
@@ -53,7 +54,7 @@ def not_square(reason: str) -> dict[str, str]:
 
 def _models() -> dict[str, IdentificationVector]:
     troubled = {trouble.kind: trouble.model for trouble in default_troubles() if trouble.model}
-    return {vector.slug: vector for vector in shipped("identification")} | troubled
+    return {vector.slug: vector for vector in (*shipped("identification"), same_output_twice())} | troubled
 
 
 def _systems() -> dict[str, ResidualSystem]:

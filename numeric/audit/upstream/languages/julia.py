@@ -134,8 +134,8 @@ class Julia:
         ]
 
     def refused(self) -> list[str]:
-        """Return what an answer means where none can be right."""
-        return ['println("WRONG: answered where no answer can be right\\n", answer)', "failed = true"]
+        """Return what an answer means where a refusal is due."""
+        return ['println("WRONG: answered where a refusal is due\\n", answer)', "failed = true"]
 
     def ending(self) -> list[str]:
         """Return the exit code."""

@@ -139,8 +139,8 @@ class Matrices:
         return [f"{function}({', '.join(arguments)});", "disp('right: a function here gets copies of its arguments');"]
 
     def refused(self) -> list[str]:
-        """Return what an answer means where none can be right."""
-        return ["disp('WRONG: answered where no answer can be right'); failed = true;"]
+        """Return what an answer means where a refusal is due."""
+        return ["disp('WRONG: answered where a refusal is due'); failed = true;"]
 
     def ending(self) -> list[str]:
         """Return the exit code."""

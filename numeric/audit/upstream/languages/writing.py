@@ -35,7 +35,7 @@ class Dialect(Protocol):
         """Return the call, and a look at the arguments after it."""
 
     def refused(self) -> list[str]:
-        """Return what an answer means where none can be right."""
+        """Return what an answer means where a refusal is due."""
 
     def ending(self) -> list[str]:
         """Return the exit code: 1 where something was wrong."""
