@@ -10,7 +10,7 @@ NEARNESS      how many bounds off is near
 Refused       the implementation declined to answer; Broken: it crashed, hung or answered what is no answer
 or_refused    what compares an answer, where a refusal is as right
 perform       runs one check; never raises for what the implementation does
-broken        the result of a check during which the implementation broke
+inside        what is measured in the process of the function, which may be another one
 grouped       results by slug and function
 message       a failure in words, with the line that shows it again
 plain         nested numbers as JSON has them
@@ -248,9 +248,16 @@ def or_refused(compare: Callable[[Function], Iterable[Measurement]]) -> Callable
     return measure
 
 
-def broken(check: Check, failure: Exception, seconds: float) -> CheckResult:
-    """The status is BROKEN, in the words of the failure."""
-    return _result(check, Status.BROKEN, None, str(failure), seconds)
+def inside(
+    measure: Callable[[Any, Function], Iterable[Measurement]], arguments: tuple[Any, ...], function: Function
+) -> Iterable[Measurement]:
+    """Return what `measure(arguments, function)` measures of a call and of the process around it, made in that process.
+
+    `measure` is a function of a module; it has the arguments alone, and no truth.
+    """
+    elsewhere = getattr(function, "inside", None)
+    found: Iterable[Measurement] = measure(arguments, function) if elsewhere is None else elsewhere(measure, arguments)
+    return found
 
 
 def grouped(results: Iterable[CheckResult]) -> list[list[CheckResult]]:

@@ -87,7 +87,7 @@ def audit(
     environment = [environment] if isinstance(environment, str) else environment
     if not isinstance(environment, Collection) or not all(isinstance(one, str) for one in environment):
         raise InvalidData(f"environment: got {shorten(environment)}, expected a list of names of variables")
-    with opened(adapter, command, peer, Limits(seconds, int(gibibytes * 2**30), tuple(environment)), seed) as subject:
+    with opened(adapter, command, peer, Limits(seconds, int(gibibytes * 2**30), tuple(environment))) as subject:
         todo = _todo(subject, only, expected, seed, quick)
         heard, results = on_progress or silent, []
         for done, check in enumerate(todo):
