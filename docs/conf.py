@@ -39,7 +39,7 @@ include_patterns = [
     *("docs/**.md", "README.md", "CHANGELOG.md", "CONTRIBUTING.md", "BIBLIOGRAPHY.md", "benchmarks/README.md"),
     *("proofs/trust/FORMAT.md", "proofs/trust/READING.md", "proofs/theory/README.md", "proofs/theory/STATEMENTS.md"),
     *("proofs/counterexamples/README.md", "numeric/audit/README.md", "numeric/audit/FINDINGS.md", "numeric/audit/RULES.md"),
-    *("numeric/audit/PROTOCOL.md", "numeric/audit/MUTANTS.md", "numeric/audit/peers/by_hand.md"),
+    *("numeric/audit/PROTOCOL.md", "numeric/audit/peers/by_hand.md"),
     "numeric/audit/upstream/readers/README.md",
 ]
 html_theme = "furo"

@@ -41,7 +41,7 @@ PAGES = [
     *sorted(DOCS.rglob("*.md")),
 ]
 EXAMPLE = re.compile(r"<!-- example: (.+) -->\n\n\Z")  # which test_readme.py of the audit runs
-BY_HAND = ("by_hand.md", "FINDINGS.md")  # the one stands at the end of the other
+BY_HAND = ("by_hand.md",)
 RUN_ELSEWHERE = {"python", "{code-cell}"}
 DATA = {"text", "toml", "{toctree}", "{eval-rst}"}
 DAILY = ("faultspace examples", "faultspace inspect", "faultspace compare", "faultspace limit", "faultspace check")
