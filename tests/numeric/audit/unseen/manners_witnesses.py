@@ -112,42 +112,6 @@ def again_after(first: Sequence[Any], then: Witness) -> Witness:
     return witness
 
 
-def altered_and_asked(view: Any, n_v: int, r: Any) -> Witness:
-    """Ask for a view of an array of pure noise that has r in every second row, or for an array that held another residual before."""
-
-    def witness(function: Function) -> float:
-        noise = np.random.default_rng(0).standard_normal((2 * len(r), r.shape[1]))
-        if view is not None:
-            noise[::2] = r
-            held = noise[::2]
-        else:
-            held = noise[: len(r)].copy()
-            held[:] = held[:, :1] * np.arange(1, r.shape[1] + 1)
-            held[0] = 1.0
-            held[:] = 0.9 ** np.arange(len(r))[:, None]
-            with contextlib.suppress(Refused, Broken):
-                guarded(function)(held)
-            held[:] = r
-        try:
-            return 0.0 if guarded(function)(held) == n_v else np.inf
-        except (Refused, Broken):
-            return np.inf
-
-    return witness
-
-
-def keeps_the_answer(first: Sequence[Any], second: Sequence[Any]) -> Witness:
-    """Hold the first answer while asking the second."""
-
-    def witness(function: Function) -> float:
-        held = function(*copies(first))
-        before = held.copy()
-        function(*copies(second))
-        return 0.0 if np.array_equal(before, held) else np.inf
-
-    return witness
-
-
 def unshared(*arguments: Any) -> Witness:
     """See whether the answer shares memory with an argument."""
 
