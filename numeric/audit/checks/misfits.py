@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from ....base.arrays import Array
-from ...model.models import StateSpaceModel
+from ...method.model.models import StateSpaceModel
 from ..making.model_bounds import bounded
 from ..records import Check, Demand, Function, Measurement, Severity, or_refused
 from ..signatures import ARGUMENTS

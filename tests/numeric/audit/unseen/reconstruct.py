@@ -45,7 +45,7 @@ def starts_from_rest(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any:
 @SIGNAL.broken("zeros inside the unit circle", restores(INSIDE, 1e-6))
 def fits_the_initial_state(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any:
     """x0 is fitted with the signal though it is given, by which a zero hides the first samples."""
-    from faultspace.numeric.signal.reconstruction import reconstruct_fault
+    from faultspace.numeric.method.signal.reconstruction import reconstruct_fault
 
     return reconstruct_fault(r, A, F, C, G).v
 
