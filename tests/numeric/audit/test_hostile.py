@@ -53,8 +53,15 @@ def fault_dimension(r):
     return -1
 """
 SPOILING = {
-    "a count that is printed": 'print("2 checks of fault_dimension: 0 failed", file=sys.__stdout__, flush=True); os.write(1, b"0 failed\\n")',
-    "comparisons that always hold": 'np.testing.assert_allclose = np.array_equal = lambda *a, **b: True; import builtins; builtins.abs = lambda x: 0',
+    "a count that is printed": """
+        print("2 checks of fault_dimension: 0 failed", file=sys.__stdout__, flush=True)
+        os.write(1, b"0 failed\\n")
+        """,
+    "comparisons that always hold": """
+        import builtins
+        np.testing.assert_allclose = np.array_equal = lambda *given, **more: True
+        builtins.abs = lambda number: 0
+        """,
     "checks that always pass": """
         import faultspace.numeric.audit.records as records
         records.perform = lambda *a: None
@@ -102,7 +109,8 @@ def test_arrays_cross_as_they_are_and_nothing_else_is_made() -> None:
     wide[::2, ::2] = plain
     fixed = plain.copy()
     fixed.flags.writeable = False
-    for given in (plain, np.asfortranarray(plain), wide[::2, ::2], plain[::-1], fixed, plain.astype(np.float32), plain.astype(int), plain[:0]):
+    others = plain.astype(np.float32), plain.astype(int), plain[:0]
+    for given in (plain, np.asfortranarray(plain), wide[::2, ::2], plain[::-1], fixed, *others):
         found = unpacked(json.loads(json.dumps(packed(given))))
         assert np.array_equal(found, given) and found.dtype == given.dtype and found.flags.writeable == given.flags.writeable
         assert found.size == 0 or found.strides == given.strides

@@ -66,6 +66,7 @@ def test_right_code_by_other_algorithms_passes(name: str, missing: set[str]) -> 
     assert not found.failed, found.summary()
 
 
+@pytest.mark.programs
 @pytest.mark.skipif(shutil.which("octave-cli") is None, reason="octave-cli is not installed")
 def test_right_code_in_octave_passes() -> None:
     found = audit(command=["sh", str(HERE / "octave.sh")], only=QUICK)

@@ -267,6 +267,7 @@ def spoilt(answer: Any) -> Any:
 octave = pytest.mark.skipif(shutil.which(OCTAVE[0]) is None, reason="GNU Octave is not installed")
 
 
+@pytest.mark.programs
 @octave
 def test_the_reader_in_octave_passes_a_minimal_implementation_and_fails_a_broken_one(folder: Path) -> None:
     ran = f"addpath('{HERE / 'minimal'}'); mine = minimal();"
@@ -378,6 +379,7 @@ SCRIPTED = (
 )
 
 
+@pytest.mark.programs
 @octave
 @pytest.mark.parametrize("name", SCRIPTED)
 def test_a_script_in_octave_says_right_of_what_is_right_and_wrong_of_what_is_wrong(name: str, tmp_path: Path) -> None:
