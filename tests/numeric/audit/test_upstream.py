@@ -43,7 +43,8 @@ PART = (
     "*[n1-u2-p1]*",
     "*[two-faults]*",
     "*[square-proper]*",
-    "refuses-*",
+    *("refuses-nan-*", "refuses-infin*", "refuses-un*", "refuses-window*", "refuses-impossible*"),
+    *("refuses-misfit[two-faults-*]-structure", "refuses-no-number[n3-u2-p2*"),
 )
 OCTAVE = ("octave-cli", "--no-gui", "--quiet", "--norc")
 LONG = ("noisy", "coloured", "faults-of-record", "space-of-record")  # records that take seconds to draw or to identify
