@@ -10,7 +10,7 @@ free_response     a residual without a fault, its system and its first state
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache, partial
 from typing import Any
@@ -25,13 +25,15 @@ from faultspace.exact.system.systems import ResidualSystem
 from ...method.signal.reconstruction import reconstruct_fault
 from ...study.rounding.residual_conditioning import fault_signal_error
 from ..making.fault_records import signal_bound
-from ..records import Check, Demand, Function, Measurement, Severity, Sides, or_refused
+from ..records import Check, Function, Measurement, Severity, Sides, or_refused
 from ..vectors.exact_comparison import lifted
 from ..vectors.fault_vectors import FaultVector, samples_that_settle
 from ..vectors.rationals import floats, fractions, matrix
 from ..vectors.shipped_vectors import shipped
 from .faults import ROUNDED, compared_count, ranks_off, signal_off, spaces_off
 from .laws import LOUD, record
+from .manners import copies
+from .refusals import refuses
 
 SAMPLES = 200
 WINDOWS = 4
@@ -145,7 +147,8 @@ def _no_fault(name: str) -> Iterator[Check]:
     yield Check("fault-signal-no-fault", "reconstruct", name, "trajectory-recovered", effect, Severity.SILENT, zero)
     if system.p > 1:
         space = arguments[0], parts[0], parts[2], 1, WINDOWS
-        yield _refuses("refuses-no-fault", "fault_space", name, "fault matrices of a record without a fault", space, "problem-11")
+        effect = "fault matrices of a record without a fault"
+        yield refuses("refuses-no-fault", "fault_space", name, effect, partial(copies, space), "problem-11")
 
 
 def _silent(arguments: tuple[Any, ...], function: Function) -> Iterator[Measurement]:
@@ -206,12 +209,4 @@ def _impossible(vector: FaultVector) -> Iterator[Check]:
         ("identified_fault_space", "order-below-0", (*of_record, BELOW, noisy.system.m)),
         ("identified_fault_space", "faults-below-0", (*of_record, noisy.system.n, BELOW)),
     ):
-        yield _refuses("refuses-impossible-number", function, name, effect, arguments)
-
-
-def _refuses(slug: str, function: str, vector: str, effect: str, arguments: tuple[Any, ...], claim: str | None = None) -> Check:
-    def measure(called: Callable[..., Any]) -> Iterator[Measurement]:
-        called(*(one.copy() if isinstance(one, np.ndarray) else one for one in arguments))
-        return iter(())
-
-    return Check(slug, function, vector, claim, effect, Severity.SILENT, measure, Demand.MUST_REFUSE)
+        yield refuses("refuses-impossible-number", function, name, effect, partial(copies, arguments))

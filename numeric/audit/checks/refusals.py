@@ -2,6 +2,7 @@
 
 checks             NaN, infinity, short data, unequal lengths, an order that cannot be, a window at the lag, shapes that do not fit, faults
                    that no residual tells apart; where a right answer is possible all the same, it may be given instead
+refuses            a check of that kind
 same_output_twice  the vector whose lag is longer than the number of its outputs shows
 """
 
@@ -40,9 +41,11 @@ def checks() -> Iterator[Check]:
         yield from _below_the_lag(vector)
 
 
-def _refuses(
+def refuses(
     slug: str, function: str, vector: str, effect: str, arguments: Callable[[], tuple[Any, ...]], claim: str | None = None
 ) -> Check:
+    """Return the check that a question with these arguments, made anew, is refused."""
+
     def measure(called: Function) -> Iterator[Measurement]:
         called(*arguments())
         return iter(())
@@ -71,13 +74,13 @@ def _of_identify(vector: IdentificationVector) -> Iterator[Check]:
     # Fewer equations than unknowns: any of them is one of many models. The unknowns: a canonical form of A and C, B, D and x(0).
     few = (n * vector.C.nrows + (n + vector.C.nrows) * vector.B.ncols + n - 1) // vector.C.nrows
     effect = "a model from fewer equations than unknowns"
-    yield _refuses("refuses-short-data", "identify", slug, effect, lambda: (y()[:few], u()[:few], n, s))
-    yield _refuses("refuses-unequal-lengths", "identify", slug, "inputs paired with the wrong outputs", lambda: (y(), u()[:-5], n, s))
+    yield refuses("refuses-short-data", "identify", slug, effect, lambda: (y()[:few], u()[:few], n, s))
+    yield refuses("refuses-unequal-lengths", "identify", slug, "inputs paired with the wrong outputs", lambda: (y(), u()[:-5], n, s))
     effect = "states that the window cannot carry: made-up poles"
     impossible = vector.C.nrows * (s - 1) + 1
     # A model of so many states may have the responses of the true one, and then nothing made up is seen.
     yield _model("refuses-impossible-order", vector, effect, lambda: (y(), u(), impossible, s), "sharp-windows", impossible)
-    yield _refuses("refuses-silent-input", "identify", slug, "a model without a cause", lambda: (y(), 0 * u(), n, s))
+    yield refuses("refuses-silent-input", "identify", slug, "a model without a cause", lambda: (y(), 0 * u(), n, s))
     yield _window_at_the_lag()
 
 
@@ -141,18 +144,18 @@ def _of_faults(vector: FaultVector) -> Iterator[Check]:
         "reconstruct": (A, F, C, G, x0),
     }
     for function, rest in others.items():
-        yield _refuses("refuses-nan-residual", function, slug, MISSING, partial(_before, nan, rest))
-        yield _refuses("refuses-infinite-residual", function, slug, MISSING, partial(_before, infinite, rest))
+        yield refuses("refuses-nan-residual", function, slug, MISSING, partial(_before, nan, rest))
+        yield refuses("refuses-infinite-residual", function, slug, MISSING, partial(_before, infinite, rest))
     short = "ranks of matrices with fewer columns than rows say nothing of the system"
-    yield _refuses("refuses-short-residual", "window_ranks", slug, "ranks of windows longer than the record", lambda: (r()[:5], 8))
-    yield _refuses("refuses-short-residual", "fault_dimension", slug, short, lambda: (r()[:7],), "settle-2")
-    yield _refuses("refuses-short-residual", "fault_space", slug, short, lambda: (r()[:7], A, C, n_v, s), "sharp-windows")
+    yield refuses("refuses-short-residual", "window_ranks", slug, "ranks of windows longer than the record", lambda: (r()[:5], 8))
+    yield refuses("refuses-short-residual", "fault_dimension", slug, short, lambda: (r()[:7],), "settle-2")
+    yield refuses("refuses-short-residual", "fault_space", slug, short, lambda: (r()[:7], A, C, n_v, s), "sharp-windows")
     yield _too_short(vector)
     wrong = "matrices of another system are taken for those of the residual"
-    yield _refuses("refuses-shapes", "fault_space", slug, wrong, lambda: (r(), A, C[:-1], n_v, s))
-    yield _refuses("refuses-shapes", "reconstruct", slug, wrong, lambda: (r(), A, F, C[:-1], G[:-1], x0))
-    yield _refuses("refuses-shapes", "residual", slug, wrong, lambda: (r(), r()[:, : system.m], A, F, C[:-1], G[:-1]))
-    yield _refuses("refuses-shapes", "structure", slug, wrong, lambda: (A, F[:-1], C, G))
+    yield refuses("refuses-shapes", "fault_space", slug, wrong, lambda: (r(), A, C[:-1], n_v, s))
+    yield refuses("refuses-shapes", "reconstruct", slug, wrong, lambda: (r(), A, F, C[:-1], G[:-1], x0))
+    yield refuses("refuses-shapes", "residual", slug, wrong, lambda: (r(), r()[:, : system.m], A, F, C[:-1], G[:-1]))
+    yield refuses("refuses-shapes", "structure", slug, wrong, lambda: (A, F[:-1], C, G))
     many = "more faults than outputs cannot be told apart"
     told, due = system.p + 1, (vector.space, vector.space_bounds[s])
     yield _space("refuses-too-many-faults", vector, many, lambda: (r(), A, C, told, s), "proposition-3", *due)
@@ -162,20 +165,20 @@ def _of_faults(vector: FaultVector) -> Iterator[Check]:
     yield _space("refuses-pure-noise", vector, nothing, lambda: (noise.copy(), A, C, n_v, s), "problem-11", everything, ROUNDED)
     twice = "one of many fault signals that fit, without a word"
     F2, G2 = F[:, [0, 0]], G[:, [0, 0]]
-    yield _refuses("refuses-same-fault-twice", "reconstruct", slug, twice, lambda: (r(), A, F2, C, G2, x0), "trajectory-recovered")
+    yield refuses("refuses-same-fault-twice", "reconstruct", slug, twice, lambda: (r(), A, F2, C, G2, x0), "trajectory-recovered")
     wide = "one of many fault signals that fit, without a word"
     first = r()[:, :1], A, F, C[:1], G[:1], x0
-    yield _refuses("refuses-more-faults-than-outputs", "reconstruct", slug, wide, lambda: first, "trajectory-recovered")
+    yield refuses("refuses-more-faults-than-outputs", "reconstruct", slug, wide, lambda: first, "trajectory-recovered")
     none = "answers about no system"
-    yield _refuses("refuses-nan-model", "residual", slug, none, lambda: (r(), r()[:, : system.m], A * np.nan, F, C, G))
-    yield _refuses("refuses-nan-model", "fault_space", slug, none, lambda: (r(), A * np.nan, C, n_v, s))
-    yield _refuses("refuses-nan-model", "reconstruct", slug, none, lambda: (r(), A * np.nan, F, C, G, x0))
-    yield _refuses("refuses-nan-model", "structure", slug, none, lambda: (A * np.nan, F, C, G))
+    yield refuses("refuses-nan-model", "residual", slug, none, lambda: (r(), r()[:, : system.m], A * np.nan, F, C, G))
+    yield refuses("refuses-nan-model", "fault_space", slug, none, lambda: (r(), A * np.nan, C, n_v, s))
+    yield refuses("refuses-nan-model", "reconstruct", slug, none, lambda: (r(), A * np.nan, F, C, G, x0))
+    yield refuses("refuses-nan-model", "structure", slug, none, lambda: (A * np.nan, F, C, G))
     u = floats(vector.v)
-    yield _refuses("refuses-nan-output", "residual", slug, MISSING, lambda: (nan(), u, A, F, C, G))
-    yield _refuses("refuses-nan-input", "residual", slug, MISSING, lambda: (r(), _with(u.copy(), np.nan), A, F, C, G))
+    yield refuses("refuses-nan-output", "residual", slug, MISSING, lambda: (nan(), u, A, F, C, G))
+    yield refuses("refuses-nan-input", "residual", slug, MISSING, lambda: (r(), _with(u.copy(), np.nan), A, F, C, G))
     unequal = "inputs paired with the wrong outputs"
-    yield _refuses("refuses-unequal-lengths", "residual", slug, unequal, lambda: (r(), u[:-5], A, F, C, G))
+    yield refuses("refuses-unequal-lengths", "residual", slug, unequal, lambda: (r(), u[:-5], A, F, C, G))
 
 
 def _too_short(vector: FaultVector) -> Check:
