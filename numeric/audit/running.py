@@ -61,8 +61,8 @@ def audit(
     sees of the environment what any program needs (PATH, HOME, the language) and the variables named in `environment`, "*" for all; an
     object runs in this process, where nothing limits it and it could look at the answers. What the functions do, this never raises.
     Failures are explained where a computation shows what is wrong, in at most as much time as the checks took. The Audit is a sequence of
-    results, one a check: `verdict`, and what was `got` beside the `bound`; it has `failed`, `summary()` and `to_json()`. Source: the checks take their
-    truth from [G25] and the claims of this library.
+    results, one a check: `verdict`, and what was `got` beside the `bound`; it has `failed`, `summary()` and `to_json()`. Source: the checks
+    take their truth from [G25] and the claims of this library.
 
     Raises InvalidData for an implementation that cannot be reached, has none of the functions or one that takes other arguments, for
     names of checks that do not exist, for a `seed` that is no natural number, for `seconds` or `gibibytes` that are not positive, and for

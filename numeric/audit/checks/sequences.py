@@ -13,7 +13,7 @@ from __future__ import annotations
 import gc
 import tracemalloc
 import weakref
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import astuple, is_dataclass, replace
 from functools import cache, partial
 from typing import Any
@@ -58,7 +58,7 @@ def checks() -> Iterator[Check]:
         yield _check("forgets-the-records", name, vector, effect, partial(_forgetting, name if long else None, arguments))
 
 
-def _check(slug: str, function: str, vector: str, effect: str, measure: Callable[[Function], Iterator[Measurement]]) -> Check:
+def _check(slug: str, function: str, vector: str, effect: str, measure: Callable[[Function], Iterable[Measurement]]) -> Check:
     return Check(slug, function, vector, None, effect, Severity.SOMETIMES, measure, nearness=1.0)
 
 
