@@ -20,9 +20,7 @@ from faultspace.numeric.study.random_systems import N_V, study_system
 from faultspace.numeric.study.runs import study_run
 
 # Twenty lags of forty samples would be as many coefficients as numbers.
-OTHERWISE = (
-    ExpectedFailure("split-data[n2-u3-p1]", "40 samples do not carry the two lags of order 2 with four windows a regressor"),
-)
+OTHERWISE = (ExpectedFailure("split-data[n2-u3-p1]", "40 samples do not carry the two lags of order 2 with four windows a regressor"),)
 QUICK = ("exact-recovery", "consistent-under-coloured-fault", "refuses-unexciting-input")
 
 
