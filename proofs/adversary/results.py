@@ -26,6 +26,7 @@ from typing import Any
 
 from ...base.progress import Progress
 from ...base.tasks import ordered, processes
+from ...base.writing import write_text
 from ..evidence.attacks import Aim, Attack, Attacked, Trial
 from ..trust.structure_certificates import Certificate, sha256
 from .catalogue import attacks_on, catalogue, statement_of
@@ -59,7 +60,7 @@ def write(records: Sequence[AttackRecord], path: Path) -> None:
     """Writes the file, in the order of the catalogue."""
     order = {attack.id: place for place, attack in enumerate(catalogue())}
     kept = sorted((record for record in records if record["attack"] in order), key=lambda record: order[record["attack"]])
-    path.write_text(json.dumps({"format": FORMAT, "attacks": kept}, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    write_text(path, json.dumps({"format": FORMAT, "attacks": kept}, indent=1, ensure_ascii=False) + "\n")
 
 
 @cache

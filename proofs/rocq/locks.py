@@ -26,6 +26,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ...base.writing import write_text
 from ..verdict.ledger import Claim, load
 from .build import NotProved
 from .sources import THEORY, sources
@@ -229,8 +230,8 @@ def main() -> int:
     except NotProved as error:
         found = [str(error)]
     place = Path(str(THEORY))
-    (place / LOCKS).write_text(written(now), "utf-8")
-    (place / STATEMENTS).write_text(page(now, list(load())), "utf-8")
+    write_text(place / LOCKS, written(now))
+    write_text(place / STATEMENTS, page(now, list(load())))
     for one in found or ["nothing is different"]:
         print(one)
     return 0

@@ -37,7 +37,7 @@ def _not_rendered(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatc
     if "rendered" in request.fixturenames or importlib.util.find_spec("matplotlib") is None:
         return
 
-    def savefig(figure: object, path: Any, **options: Any) -> None:
-        Path(path).write_bytes(b"not rendered")
+    def savefig(figure: object, file: Any, **options: Any) -> None:
+        file.write(b"not rendered")
 
     monkeypatch.setattr("matplotlib.figure.Figure.savefig", savefig)
