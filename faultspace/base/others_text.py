@@ -20,9 +20,9 @@ from collections.abc import Iterable
 
 LONGEST_LABEL = 60  # characters, as `errors.shorten` has
 FORMULA = frozenset("=+-@\t\r\n")  # what begins one: https://owasp.org/www-community/attacks/CSV_Injection
-# Within a word _ is no emphasis; all else here begins something, in CommonMark or where mathematics, tables and addresses are read, too.
-_ACTIVE = re.compile(r"[\\`*\[<~$|]|(?<![^\W_])_|_(?![^\W_])|&(?=[#\w])|(?<=:)//|(?<=www)\.", re.IGNORECASE)
-_FIRST = re.compile(r"[#>+=-]|\d+(?=[.)])")
+# Within a word _ is no emphasis; all else here begins something, in CommonMark or where mathematics and addresses are read, too.
+_ACTIVE = re.compile(r"[\\`*\[~$]|<(?=[a-z/!?])|(?<![^\W_])_|_(?![^\W_])|&(?=[#\w])|(?<=:)//|(?<=www)\.", re.IGNORECASE)
+_FIRST = re.compile(r"[#>]|[-+](?=\s|$)|[-=]+\s*$|\d+(?=[.)])")
 
 
 def printable(text: str) -> str:
