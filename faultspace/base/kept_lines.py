@@ -22,7 +22,7 @@ from typing import Any
 from filelock import FileLock, Timeout
 
 from .errors import InvalidInput, quote_path
-from .regular_files import open_regular
+from .regular_files import open_own
 from .writing import MODE, NO_LINK, reason
 
 Line = Mapping[str, Any]
@@ -97,7 +97,7 @@ def keeping_lines(path: Path, format: str, good: Callable[[Line], bool], option:
 def _read(path: Path, format: str, good: Callable[[Line], bool], option: str, name: str) -> list[Line]:
     try:
         os.close(os.open(path, os.O_RDWR | os.O_CREAT | NO_LINK | getattr(os, "O_NONBLOCK", 0), MODE))
-        with open_regular(path, "a file of lines") as stream:
+        with open_own(path, "a file of lines") as stream:
             content = stream.read()
         whole = content[: content.rfind(b"\n") + 1]
         lines = [json.loads(line) for line in whole.splitlines()]

@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from ...base.errors import InvalidInput, quote_path
-from ...base.regular_files import open_regular
+from ...base.regular_files import open_own
 from ...base.writing import write_text
 
 MANIFEST = ".faultspace-files.json"
@@ -78,9 +78,7 @@ def _known(folder: Path) -> Digests:
     if not os.path.lexists(path):
         return {}
     try:
-        if path.is_symlink():
-            raise InvalidInput("is a link, expected our own file")
-        with open_regular(path, "our own file") as stream:
+        with open_own(path, "our own file") as stream:
             content: Any = json.loads(stream.read(LARGEST))
     except InvalidInput as error:
         raise InvalidInput(f"{quote_path(str(path))}: {error}: name a new folder") from None

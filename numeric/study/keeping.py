@@ -27,9 +27,9 @@ import numpy as np
 import scipy
 from filelock import Timeout
 
-from ...base.errors import InvalidInput, quote_path, shorten
+from ...base.errors import InvalidInput, in_file, quote_path, shorten
 from ...base.kept_lines import append, lock_of
-from ...base.regular_files import open_regular
+from ...base.regular_files import open_own
 from ...base.sheets import counted
 from ...base.writing import reason, write_text
 from .cases import Case, Errors, Estimate, Failed
@@ -123,7 +123,9 @@ def _read(path: Path, settings: Settings) -> dict[str, dict[int, Case]]:
     """Return the cases in the file, by plan and index, and cut off a last line that lacks its end. Raises InvalidInput."""
     name = quote_path(str(path))
     try:
-        with open_regular(path, "a file of cases") as stream:
+        with in_file(str(path)):
+            opened = open_own(path, "a file of cases")
+        with opened as stream:
             _same(stream.readline(), settings, name)
             cases: dict[str, dict[int, Case]] = {}
             whole = stream.tell()
