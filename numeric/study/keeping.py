@@ -32,7 +32,7 @@ from ...base.kept_lines import append, lock_of
 from ...base.regular_files import open_own
 from ...base.sheets import counted
 from ...base.writing import reason, write_text
-from .cases import Case, Errors, Estimate, Failed
+from .study_cases import Case, Errors, Estimate, Failed
 
 UNFINISHED, TEMPORARY = "unfinished-cases.jsonl", ".unfinished-monte-carlo"
 LOCK = ".faultspace-lock"

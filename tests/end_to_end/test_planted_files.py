@@ -12,7 +12,7 @@ import pytest
 from faultspace.base.errors import InvalidInput
 from faultspace.base.kept_lines import append, keeping_lines
 from faultspace.base.writing import new_file, whole_file, write_text
-from faultspace.numeric.report import folders
+from faultspace.numeric.plant.report import folders
 from faultspace.numeric.study.keeping import LOCK, UNFINISHED, Settings, keeping
 from tests.end_to_end.commands import ROOT
 

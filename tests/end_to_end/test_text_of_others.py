@@ -19,7 +19,7 @@ from faultspace.base.messages import say
 from faultspace.base.others_text import as_label, as_markdown, printable, table_cell
 from faultspace.base.page import page
 from faultspace.numeric import StateSpaceModel
-from faultspace.numeric.report import pictures
+from faultspace.numeric.plant.report import result_pictures as pictures
 from tests.end_to_end.commands import Run, call
 
 ADDRESS = "http://evil.example"
