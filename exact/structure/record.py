@@ -126,7 +126,7 @@ class Structure(Shown):
         }
 
 
-def analyze(system: System, *, on_progress: Progress = silent) -> Structure:
+def analyze(system: System, *, on_progress: Progress | None = None) -> Structure:
     """Compute all that is known exactly about a system: its indices, zeros, delays, window ranks and fault space.
 
     `system` is a ResidualSystem or a FaultySystem over any field, with n states, m faults and p outputs, of any size, observable or not,
@@ -152,7 +152,7 @@ def analyze(system: System, *, on_progress: Progress = silent) -> Structure:
     return Structure(
         kernel=kernel,
         right_minimal_indices=right,
-        invariant_zero_polynomial=invariant_zero_polynomial(kernel, finite, on_progress),
+        invariant_zero_polynomial=invariant_zero_polynomial(kernel, finite, on_progress or silent),
         infinite_zero_orders=infinite,
         observable=_is_observable(system),
         controllable=_is_observable(system.transposed()),

@@ -17,7 +17,7 @@ import stat
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import IO, Any, BinaryIO
+from typing import IO, Any
 
 from .errors import InvalidInput, quote_path
 
@@ -36,7 +36,7 @@ def write_text(path: Path, text: str) -> None:
 
 
 @contextmanager
-def whole_file(path: Path) -> Iterator[BinaryIO]:
+def whole_file(path: Path) -> Iterator[IO[bytes]]:
     """Yield a stream of bytes, which is the file at `path` once the body has come to its end, on the disk before it has the name.
 
     Raises InvalidInput as `write_text` does.
