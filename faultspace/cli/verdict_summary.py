@@ -17,6 +17,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ..base.sheets import counted
+from ..proofs.rocq.build import told
 from ..proofs.verdict.verdicts import ClaimResult, Report, Row, Verdict
 from .consoles import paragraph, print_table
 from .verdict_tables import STYLES
@@ -34,8 +35,15 @@ def print_lines(console: Console, report: Report) -> None:
     if report.hypotheses:
         paragraph(console, hypothesis_words(report.hypotheses), "hypotheses: ")
     paragraph(console, attack_words(report), "attacks: ")
-    paragraph(console, report.machine, "machine-checked: ")
+    print_machine(console, report)
     paragraph(console, Text(HELP, style="dim"))
+
+
+def print_machine(console: Console, report: Report) -> None:
+    """Print what Rocq has checked, and by which programs and files."""
+    paragraph(console, report.machine, "machine-checked: ")
+    if report.believed is not None:
+        paragraph(console, told(report.believed), "believed: ")
 
 
 def print_differences(console: Console, report: Report) -> None:

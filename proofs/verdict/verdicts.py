@@ -284,8 +284,8 @@ class Report(Shown):
     """The verdicts of a run on every claim that was asked for; `verify` returns it.
 
     `claims` is a tuple with a ClaimResult a claim, whose `readings` hold the outcomes, and `hypotheses` has a Row for each hypothesis that
-    was dropped. `corpus` says in words on which systems the run rests, `seconds` is how long it took, and `machine` is what there is to say
-    of Rocq. `certificates()` gives the list of all headline certificates. The claims are those of [G25].
+    was dropped. `corpus` says in words on which systems the run rests, `seconds` is how long it took, `machine` is what there is to say of
+    Rocq, and `believed` says which programs and files Rocq was (None: it was not asked). `certificates()` gives the list of all headline certificates. The claims are those of [G25].
 
     Raises nothing; `plot` raises ImportError where there is no matplotlib.
 
@@ -303,6 +303,7 @@ class Report(Shown):
     corpus: str
     seconds: float
     machine: str = "not asked"
+    believed: Mapping[str, str | None] | None = None
     versions: dict[str, str] = field(default_factory=lambda: versions())
 
     @property
@@ -348,6 +349,7 @@ class Report(Shown):
             "as_expected": self.as_expected,
             "corpus": self.corpus,
             "rocq": self.machine,
+            "believed": None if self.believed is None else dict(self.believed),
             "seconds": round(self.seconds, 1),
             "versions": self.versions,
             "claims": [claim.to_json() for claim in self.claims],

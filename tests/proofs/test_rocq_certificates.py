@@ -150,7 +150,7 @@ def everywhere(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...
 def text_of(certificate: dict[str, Any], write: Callable[[dict[str, Any]], Terms]) -> str | None:
     """Returns what Rocq would read; None where the exporter refuses."""
     try:
-        return f"{(terms := write(certificate)).theorem()} {terms.check}"
+        return f"{(terms := write(certificate)).claimed()}{terms.proof()} {terms.check}"
     except (checker.Malformed, checker.Rejected, NotCovered):
         return None
 
