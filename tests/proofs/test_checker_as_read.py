@@ -14,7 +14,6 @@ from pathlib import Path
 import pytest
 
 import faultspace
-from faultspace.proofs.trust import checker
 from tests.proofs.examples import HINTED, spoiled
 
 FILES = ("checker", "checker_fields", "checker_structure", "checker_limits")  # each needs those before it
