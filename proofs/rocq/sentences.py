@@ -28,7 +28,7 @@ PIECE = re.compile(rf'"[^"]*"|"|\(\*|\*\)|\.+(?=[{BLANKS}]|\Z)')
 # Rocq takes some signs for letters and some for blanks; none of them is needed.
 OTHER = re.compile(rf"[^ -~{BLANKS}]")
 COMMANDS = re.compile(
-    rf"""(?:Theorem|Lemma|Corollary|Fact|Definition|Fixpoint|Let)\ {NAME}\b.*
+    rf"""(?:Theorem|Lemma|Corollary|Fact|Definition|Fixpoint|Let)\ (?!(?:Co)?Fixpoint\b){NAME}\b.*
     |(?:Local\ )?Notation\ (?:{NAME}(?:\ {NAME})*\ :=|"[^"]*"\ :=).*
     |Record\ {NAME}\b.*|Canonical\ {NAME}\ :.*|Implicit\ Types?\ .*|Add\ Ring\ {NAME}\ :\ {NAME}
     |(?:Variables?|Hypothes[ie]s)\ .*|(?:Section|Module|End)\ {NAME}

@@ -102,7 +102,8 @@ def added(file: str, text: str, *, first: bool = False) -> dict[str, str]:
 def forgeries() -> Iterator[tuple[str, dict[str, str]]]:
     """Yield each forgery with what it is."""
     for text in (*MODULES, *WORDS, *FROM_AFAR):
-        for k, file in enumerate((*VOCABULARIES, *OF_HEADLINES)):
+        # A file of headlines may require a file without importing it, as all of them do: no name of it comes into sight.
+        for k, file in enumerate((*VOCABULARIES, *(() if text == "From faultspace Require Gap." else OF_HEADLINES))):
             yield f"{file}: {text}", added(file, text, first=k % 2 == 1)
     for text in ASSUMED:
         for file in (*OF_PROOFS, "Vocabulary.v", "Headlines.v"):
