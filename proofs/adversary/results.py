@@ -205,12 +205,13 @@ def _attacked(record: AttackRecord, attack: Attack | Sweep | None) -> Attacked:
         return Attacked(record["attack"], words, False, "out of date: the statement has changed since, so that the attack must run again")
     if attack is None:
         return Attacked(record["attack"], words, False, "out of date: the attack is no longer in the catalogue")
-    trouble, trial = _again(record, attack), _searched_again(record, attack)
+    trouble = _again(record, attack)
+    trial = None if trouble else _searched_again(record, attack)
     if trial is not None:
         against = trial.witness is not None or trial.bracket is not None
         found = "a counterexample" if against else "no counterexample"
         words += f"; the same search now: {trial.evaluations} values, {trial.decided} points decided exactly, {found}"
-        trouble = trouble or ("not found again: the search found nothing, and finds something now" if against else None)
+        trouble = "not found again: the search found nothing, and finds something now" if against else None
     return Attacked(record["attack"], words, refuting(record) and trouble is None, trouble)
 
 
