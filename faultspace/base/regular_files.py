@@ -1,12 +1,14 @@
 """This opens files that people name; what may never end, or would wait for somebody who writes, is refused at once.
 
-open_regular   a file as a stream of bytes; pipes, devices and folders are no files
+open_regular     a file as a stream of bytes; pipes, devices and folders are no files
+standard_input   the bytes of standard input
 """
 
 from __future__ import annotations
 
 import os
 import stat
+import sys
 from typing import BinaryIO
 
 from .errors import InvalidInput
@@ -35,3 +37,10 @@ def open_regular(path: str | os.PathLike[str], expected: str) -> BinaryIO:
         what = "is a directory" if stat.S_ISDIR(kind) else "is a pipe or a device"
         raise InvalidInput(f"{what}, expected {expected}")
     return os.fdopen(descriptor, "rb")
+
+
+def standard_input() -> BinaryIO:
+    """Return standard input as a stream of bytes. Raises InvalidInput where whoever started us has closed it."""
+    if sys.stdin is None:
+        raise InvalidInput("standard input: is closed, expected one to read from")
+    return sys.stdin.buffer
