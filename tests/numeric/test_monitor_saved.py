@@ -94,7 +94,7 @@ def saved() -> str:
         (("window",), 10**30, "window: got 1000000000000000000000000000000; needed 1677721 samples at most for 2 outputs"),
         (("samples",), 10**30, "maxima: got 15 blocks of 50 samples in 1000000000000000000000000000000"),
         (("shift",), 1e300, "shift: got 1e+300, expected numbers whose squares a float holds"),
-        (("form", "A"), [[1e300]], "A: got 1e+300, expected"),
+        (("form", "A"), [[1e300] * 2] * 2, "A: got 1e+300, expected"),
         (("state", "bank", "sums"), [[1e300, 0.0]], "sums: got 1e+300, expected"),
         (("state", "samples"), -1, "samples: got -1, expected counts"),
         (("state", "missing"), [-1, 0], "missing: got [-1, 0], expected counts"),

@@ -113,7 +113,10 @@ HEAD = "a,b\n"
 STORIES: dict[str, tuple[list[Step], list[Any]]] = {
     "renamed behind fifty rows": ([together(add(rows(3, 53)), rename, write(HEAD + rows(53, 55)))], list(range(1, 55))),
     "away for a while": ([rename, nothing, nothing, write(HEAD + rows(3, 5))], [1, 2, 3, 4]),
-    "written to while it is away": ([rename, behind(rows(3, 5)), together(behind(rows(5, 6)), write(HEAD + rows(6, 8)))], list(range(1, 8))),
+    "written to while it is away": (
+        [rename, behind(rows(3, 5)), together(behind(rows(5, 6)), write(HEAD + rows(6, 8)))],
+        list(range(1, 8)),
+    ),
     "an empty one first": ([together(rename, write("")), behind(rows(3, 4)), write(HEAD + rows(4, 5))], [1, 2, 3, 4]),
     "goes on without names": ([together(rename, write(rows(3, 6)))], [1, 2, 3, 4, 5]),
     "other order and separator": ([together(rename, write("b;a\n3;0\n4;0\n"))], [1, 2, 3, 4]),
@@ -136,7 +139,7 @@ STORIES: dict[str, tuple[list[Step], list[Any]]] = {
     "names again": ([add(HEAD + rows(3, 5)), add("# started\n\nb,a\n5,0\n")], [1, 2, 3, 4, 5]),
     "units": ([together(rename, write("a,b\nm,s\n" + rows(3, 5)))], [1, 2, 3, 4]),
     "lines of Windows": ([add("0,3\r\n\ufeff0,4\r\n")], [1, 2, 3, 4]),
-    "no numbers": ([add("0,x\n0\n0,1,2\n0,1_0\n0,\uff11\n0,0x1\n\"0,1\n0,inf\n0,\n"), add("0,3\n")], [1, 2, *"-------", "-", "-", 3]),
+    "no numbers": ([add('0,x\n0\n0,1,2\n0,1_0\n0,\uff11\n0,0x1\n"0,1\n0,inf\n0,\n'), add("0,3\n")], [1, 2, *"-------", "-", "-", 3]),
     "bytes": ([add(b"0,\xff\n0,\0\n\xff\xfe\n0,\xc3\n\0\0\0\n0,3\n")], [1, 2, *"-----", 3]),
     "a line without end": ([add(b"7" * (LONGEST_LINE + 9)), add(b"7" * LONGEST_LINE), add(b"\n0,3\n")], [1, 2, "-", 3]),
 }
