@@ -111,11 +111,12 @@ class Followed:
             elif came:
                 waited = 0.0
                 self._remember(came)
-                *lines, rest = (rest + came).split(b"\n")
+                *lines, end = came.split(b"\n")
                 for line in lines:
+                    line, rest = self._longer(rest, line), b""
                     self.place = Place(self.place.table, self.place.bytes + len(line) + 1, self.place.line + 1)
-                    yield line[:LONGEST_LINE]
-                rest = self._shortened(rest)
+                    yield line
+                rest = self._longer(rest, end)
             elif other is not None:
                 waited, rest = 0.0, b""
                 kept = os.fstat(self._stream.fileno()).st_nlink > 0  # a rotation gives the old file another name
@@ -130,11 +131,12 @@ class Followed:
     def _begin(self, table: int) -> None:
         self.place, self._read, self._first, self._last = Place(table, 0, 0), 0, b"", b""
 
-    def _shortened(self, rest: bytes) -> bytes:
-        """Return the beginning of a line that has not ended; what is taken out counts as read."""
-        if len(rest) > LONGEST_LINE:
-            self.place = self.place._replace(bytes=self.place.bytes + len(rest) - LONGEST_LINE)
-        return rest[:LONGEST_LINE]
+    def _longer(self, line: bytes, more: bytes) -> bytes:
+        """Return the line with what follows, as far as it may go; what is left out counts as read."""
+        whole = line + more[: LONGEST_LINE - len(line)]
+        if left := len(line) + len(more) - len(whole):
+            self.place = self.place._replace(bytes=self.place.bytes + left)
+        return whole
 
     def _at(self, start: int, size: int) -> bytes:
         descriptor = self._stream.fileno()  # a buffer would tell what stood there earlier
