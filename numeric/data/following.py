@@ -81,7 +81,7 @@ class Followed:
         with _named(path):
             self._stream = open_regular(path, "a text table that grows")
         self._absent = ""
-        self._begin(0)
+        self.place, self._read, self._first, self._last = Place(0, 0, 0), 0, b"", b""
         self.begins = self.place
         if after is not None and after["bytes"]:
             then = Place(0, after["bytes"], after["line"])

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import io
 import os
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,6 @@ import numpy as np
 import pytest
 
 from faultspace.base.errors import InvalidInput
-from faultspace.numeric.data import following
 from faultspace.numeric.data.following import LONGEST_LINE, Break, Followed, bounded
 from faultspace.numeric.data.streams import RESTARTED, TableStream, seldom
 
@@ -34,7 +34,7 @@ def told(file: Path, steps: list[Step], monkeypatch: pytest.MonkeyPatch, heard: 
             raise _Over
         left.pop(0)(file)
 
-    monkeypatch.setattr(following.time, "sleep", sleep)
+    monkeypatch.setattr(time, "sleep", sleep)
     hear = ([] if heard is None else heard).append
     seen: list[Any] = []
     try:

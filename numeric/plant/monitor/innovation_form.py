@@ -27,6 +27,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.linalg
+from numpy.typing import NDArray
 
 from ....base.arrays import Array
 from ....base.errors import InvalidData
@@ -353,7 +354,7 @@ class Predictor:
                 return self._inverse @ e, e / self._sizes
             return self._filtered(e, there, after)
 
-    def _filtered(self, e: Array, there: Array, after: Array) -> tuple[Array, Array] | None:
+    def _filtered(self, e: Array, there: NDArray[np.bool_], after: Array) -> tuple[Array, Array] | None:
         """Take the step with a state that is not known, or with outputs missing or wild; `after` is the next one by the forecast alone."""
         form, noise = self.form, self._root
         root = np.zeros((len(form.A), 0)) if self.root is None else self.root
@@ -380,7 +381,7 @@ class Predictor:
 
 def _lower(wide: Array) -> Array:
     """Return the lower triangle T with T T' = wide wide' and no negative number on its diagonal."""
-    upper = np.linalg.qr(wide.T, mode="r")
+    upper = np.asarray(np.linalg.qr(wide.T, mode="r"))
     return np.asarray((upper * np.where(np.diag(upper) < 0, -1.0, 1.0)[:, None]).T)
 
 
