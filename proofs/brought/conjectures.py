@@ -134,11 +134,12 @@ class Evidence(Tried):
 
 @dataclass(frozen=True, repr=False)
 class Conjectures(Shown):
-    """Bounds above and below on a quantity by others, which nothing that was tried refutes and some system attains: no theorems.
+    """Bounds above and below on a quantity by others, which nothing that was tried refutes and some system attains.
 
     `above` and `below` list them, each with `text`, a bound in the language, `first`, the first system of the box that attains it,
     or `case`, the first pair, choice or record, `systems`, how many of the box do, `sharper`, the next sharper bounds with the smallest
-    case that refutes each, and `known`, the like statements of the field and of the ledger; none is implied by the others. `equal` are sums
+    case that refutes each, `theorems`, those that it follows from, if any, and `known`,
+    the like statements of the field and of the ledger; none is implied by the others. `equal` are sums
     that the target equals wherever it was looked at. `by` are the quantities of the bounds; `left_out` those that are infinite on a case,
     which is named. `about` is what claims say they are about; `tried` counts what was gone through. Source: [F75], [VD79] for the ranks
     that the quantities are found by. Raises nothing by itself.

@@ -2,9 +2,10 @@
 
     withstand     add to a table the systems on which some bound fails, and seek bounds anew, until none fails
 
-Systems have up to 6 states, 3 faults and 4 outputs. About one entry a row is not 0, or one at most, as in shift registers: such systems have
-long lags, delays and indices. They are drawn from six seeds, as many from each; a slow machine stops drawing after thirty seconds, and the
-answer says how many there were. What is drawn is kept, with what was found of it, so that bounds that come in the place of refuted ones meet all of it, too.
+Systems have up to 6 states, 3 faults and 4 outputs. About one entry a row is not 0, or one at most, as in shift registers: such systems
+have long lags, delays and indices. They are drawn from six seeds, as many from each; a slow machine stops drawing after thirty seconds,
+and the answer says how many there were. What is drawn is kept, with what was found of it, so that bounds that come in the place of
+refuted ones meet all of it, too.
 """
 
 from __future__ import annotations
@@ -101,5 +102,6 @@ def _drawn(box: Box, rng: Generator) -> Batch:
         return np.where(filled, np.where(rng.random(shape) < signed, -1, 1), 0).astype(np.int64)
 
     means = (0.4, 0.7, 1.0, 1.5)
-    A, F, C, G = sparse(n, n, means), sparse(m, n, means).transpose(0, 2, 1), sparse(p, n, means), sparse(p, m, (0, 0.3, *means))
-    return Batch(*(lifted(one, box.field.degree) for one in (A, F, C, G)), box.prime, number_field=box.number_field)
+    drawn = sparse(n, n, means), sparse(m, n, means).transpose(0, 2, 1), sparse(p, n, means), sparse(p, m, (0, 0.3, *means))
+    A, F, C, G = (lifted(one, box.field.degree) for one in drawn)
+    return Batch(A, F, C, G, box.prime, number_field=box.number_field)
