@@ -94,7 +94,7 @@ def _standing(claim: ClaimResult) -> str:
     """Return how many of the readings of its words are not refuted."""
     stated = [result for result in claim.readings if not result.reading.repair]
     standing = sum(result.outcome.verdict not in (Verdict.REFUTED, Verdict.ERROR) for result in stated)
-    return f"{claim.claim.whose}: {standing} of {len(stated)} {'parts' if claim.claim.in_parts else 'readings'} stand."
+    return f"As stated: {standing} of {len(stated)} {'parts' if claim.claim.in_parts else 'readings'} stand."
 
 
 def hashes(certificates: Sequence[Certificate], accepted: int) -> str:

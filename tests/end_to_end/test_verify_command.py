@@ -124,7 +124,7 @@ def test_the_table_has_a_row_for_every_reading(pretended: Pretend) -> None:
     end = next(i for i, line in enumerate(lines) if "which hypotheses are needed" in line)
     rows = [line.split() for line in lines[:end] if SHORT in line]
     assert [row[0] for row in rows] == ["as-printed", "with-zeros", "with-zeros"]
-    assert CLAIMS[0].statement in out and ONE.statement in out and "as the review states it: 0 of 1 readings stand." in out
+    assert CLAIMS[0].statement in out and ONE.statement in out and "As stated: 0 of 1 readings stand." in out
     assert all(row[-2:] == [SHORT, "1.2"] for row in rows)
     assert "REFUTED" in rows[0] and "CERTIFIED" in rows[1]
     assert "hypotheses: left-invertible; s >= n" in out
