@@ -189,6 +189,7 @@ class ClaimResult(Shown):
             "reference": self.claim.reference,
             "whose": self.claim.whose,
             "as_stated": self.claim.statement,
+            "as_printed": self.claim.statement,  # what earlier runs called it
             "uses": list(self.claim.uses),
             "verdict": str(self.verdict),
             "expected": self.expected,
