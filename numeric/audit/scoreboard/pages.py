@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from ....base.writing import write_text
 from ..adapter import FUNCTIONS
 from ..records import Demand, Status
 from .records import Audited, Board, Tally
@@ -104,5 +105,5 @@ def write_pages(board: Board, folder: Path) -> None:
     if readme.exists() and BEGIN in (text := readme.read_text("utf-8")):
         before, _, rest = text.partition(BEGIN)
         _, _, after = rest.partition(END)
-        readme.write_text(f"{before}{BEGIN}\n{table(board)}\n{END}{after}", "utf-8")
-    (folder / "FINDINGS.md").write_text(findings(board), "utf-8")
+        write_text(readme, f"{before}{BEGIN}\n{table(board)}\n{END}{after}")
+    write_text(folder / "FINDINGS.md", findings(board))

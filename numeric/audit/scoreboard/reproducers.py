@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from ....base.writing import write_text
 from ..adapter import FUNCTIONS
 from ..peers import peer
 from ..upstream.reproducing import script
@@ -50,4 +51,4 @@ def write(folder: Path) -> None:
     for name, check in KEPT:
         file = folder / path(name, check)
         file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(text(name, check), "utf-8")
+        write_text(file, text(name, check))
