@@ -6,25 +6,23 @@ from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import replace
 
-import numpy as np
-
 from ...exact.algebra.matrices import column_basis
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import window_matrix
+from ..boxes.box import Box, of_sizes
 from ..evidence.alternatives import PAIRS, PairEvidence, comparison_certificate
 from ..evidence.corpus import CORPUS
 from ..evidence.families import shift_registers
 from ..evidence.kept_kernels import kernel_once
 from ..evidence.parametric import inclusion_claim
 from ..evidence.questions import RANKS
-from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict
 from ..verdict.workbench import Workbench, accepted, certify_records, counterexample
 from .common import identity
 
-BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
+BOX = Box(n=(1, 2), m=(1, 2), p=(1, 2), total=5)
 
 
 def n_samples(bench: Workbench) -> Outcome:
@@ -92,14 +90,8 @@ def parametric(bench: Workbench) -> Outcome:
 
 def _smallest_pair(*, same_A_and_C: bool) -> Outcome:
     """The first system of the box with a partner equal on n samples but not on n + 1 makes it REFUTED, with its first partner."""
-    for dimensions in BOX.dimensions():
-        n, m, p = dimensions
-        box = Box(total=sum(dimensions), largest_n=n, largest_m=m, largest_p=p, least_m=m)
-        systems = [
-            s
-            for s in systems_in_order(box, lambda f: np.asarray(f.observable & f.controllable & f.left_invertible))
-            if (s.n, s.m, s.p) == dimensions
-        ]
+    for n, m, p in BOX.sizes():
+        systems = list(of_sizes(BOX, (n, m, p), "observable and controllable and left_invertible"))
         groups: dict[object, list[ResidualSystem]] = defaultdict(list)
         for system in systems:
             key = (column_basis(window_matrix(system, n)), (system.A, system.C) if same_A_and_C else None)

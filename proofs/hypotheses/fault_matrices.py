@@ -15,18 +15,18 @@ from ...exact.algebra.matrices import Matrix, rank, stacked
 from ...exact.structure.behavior import compare
 from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.system.systems import ResidualSystem
+from ..boxes.box import Box, in_order
 from ..evidence.alternatives import ALTERNATIVES, AlternativeEvidence, comparison_certificate, examine_alternative
 from ..evidence.kept_kernels import kernel_once, space_once
 from ..evidence.material import Material
-from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench, size
 from .aimed import aimed_systems
-from .facets import degenerate, facets, flags, of_system
+from .facets import degenerate, expressions, facets, of_system
 
-BOX = Box(total=5, largest_n=1, largest_m=2, largest_p=2)
+BOX = Box(n=(1, 1), m=(1, 2), p=(1, 2), total=5)
 
 
 @dataclass(frozen=True)
@@ -130,7 +130,7 @@ def _smallest(bench: Workbench, dropped: Sequence[str]) -> Found[Pair]:
     kept = [test for name, test in HYPOTHESES.items() if name not in dropped]
 
     def counterexamples(poor: bool) -> Iterator[Pair]:
-        for system in systems_in_order(BOX, flags(set(HYPOTHESES) - set(dropped))):
+        for system in in_order(BOX, *expressions(set(HYPOTHESES) - set(dropped))):
             if degenerate(system) and not poor:
                 continue
             kernel = kernel_once(system)

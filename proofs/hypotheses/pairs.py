@@ -18,20 +18,20 @@ from ...exact.algebra.matrices import Matrix, column_basis, rank, stacked
 from ...exact.structure.fault_columns import fault_space
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import window_matrix
+from ..boxes.box import Box, of_sizes
 from ..evidence.alternatives import ALTERNATIVES, PAIRS, PairEvidence, comparison_certificate, examine_pair
 from ..evidence.kept_kernels import kernel_once, space_once
 from ..evidence.material import Material
-from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench
 from .aimed import aimed_systems, other_columns
 from .changes_of_state import columns_moved, equivalent_pairs, moved, similarity
-from .facets import degenerate, facets, flags
+from .facets import degenerate, expressions, facets
 
-BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
-SMALLER = Box(total=4, largest_n=1, largest_m=2, largest_p=2)
+BOX = Box(n=(1, 2), m=(1, 2), p=(1, 2), total=5)
+SMALLER = Box(n=(1, 1), m=(1, 2), p=(1, 2), total=4)
 
 
 @dataclass(frozen=True)
@@ -191,9 +191,8 @@ def _groups(
     box: Box, dropped: Sequence[str], key: Callable[[ResidualSystem], object]
 ) -> Iterator[tuple[ResidualSystem, list[ResidualSystem]]]:
     """Yield every system of the box in order, with all those of its dimensions that share its key."""
-    for n, m, p in box.dimensions():
-        here = Box(total=n + m + p, largest_n=n, largest_m=m, largest_p=p, least_m=m)
-        systems = [s for s in systems_in_order(here, flags(ALONE - set(dropped), "both ")) if (s.n, s.m, s.p) == (n, m, p)]
+    for sizes in box.sizes():
+        systems = list(of_sizes(box, sizes, *expressions(ALONE - set(dropped), "both ")))
         groups: dict[object, list[ResidualSystem]] = defaultdict(list)
         keys = [key(system) for system in systems]
         for system, name in zip(systems, keys, strict=True):

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from math import inf
 
+from ..evidence import questions as ask
 from . import certified
 from .ranks import DRIVEN, LATER, WINDOW, Ranks
-from .registry import Kind, Quantity
+from .registry import Kind, Quantity, Told
 
 
 def _or_inf(delay: int | None) -> float:
@@ -31,6 +32,8 @@ QUANTITIES = (
         lambda x: _or_inf(x.delay_known),
         _known,
         certified.delay_known,
+        told=Told((ask.DELAY_KNOWN_STATE,), lambda e: _or_inf(e.delay_known_state)),
+        infinite=True,
     ),
     Quantity(
         "delay_unknown",
@@ -39,6 +42,8 @@ QUANTITIES = (
         lambda x: _or_inf(x.delay_unknown),
         _unknown,
         certified.delay_unknown,
+        told=Told((ask.DELAY_UNKNOWN_STATE,), lambda e: _or_inf(e.delay_unknown_state)),
+        infinite=True,
     ),
     Quantity(
         "left_invertible",
@@ -47,6 +52,8 @@ QUANTITIES = (
         lambda x: x.kernel.normal_rank == x.system.m,
         lambda r: r.normal_rank == r.m,
         certified.invertible,
+        told=Told((ask.RANKS,), lambda e: e.left_invertible),
+        balance=("normal_rank", "m"),
     ),
     Quantity(
         "right_invertible",
@@ -55,5 +62,7 @@ QUANTITIES = (
         lambda x: x.kernel.normal_rank == x.system.p,
         lambda r: r.normal_rank == r.p,
         certified.dual_invertible,
+        told=Told((ask.RANKS,), lambda e: e.kernel.normal_rank == e.system.p),
+        balance=("normal_rank", "p"),
     ),
 )

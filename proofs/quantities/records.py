@@ -11,11 +11,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
-from ...exact.algebra.fields import NumberField
 from ...exact.algebra.matrices import Matrix, beside, rank, stacked
 from ...exact.structure.signals import excitation_matrix, hankel
 from ...exact.system.systems import FaultySystem, ResidualSystem
@@ -25,7 +24,7 @@ from .batches import Batch
 from .blocks import exactly, transposed
 from .cases import Record, RecordSubject
 from .elimination import Integers, leading_ranks
-from .many import Chosen, Column, Many
+from .many import Both, Chosen, Column
 from .ranks import Numbers
 from .registry import Kind, Quantity
 
@@ -33,44 +32,22 @@ INPUT, OUTPUT, BOTH, STATE = "Hankel of u", "Hankel of y", "Hankel of [u; y]", "
 
 
 @dataclass
-class Records(Many):
-    """Record i is the system `firsts[i]` of `first`, (A, B, C, D) number `seconds[i]` of `inputs`, u[i] (N, nu), x0[i] (n, 1)."""
+class Records(Both):
+    """Many records: `first` has the systems (A, F, C, G), `second` those of the inputs, (A, B, C, D); u[i] is (N, nu), x0[i] (n, 1)."""
 
+    called: ClassVar[tuple[str, str]] = ("", "inputs")
     first: Batch
     firsts: Chosen
-    inputs: Batch
+    second: Batch
     seconds: Chosen
     u: Integers
     x0: Integers
     _columns: dict[object, Column] = field(default_factory=dict)
 
-    def __len__(self) -> int:
-        return len(self.firsts)
-
     @property
     def own(self) -> Mapping[str, Any]:  # type: ignore[override]
         """These are the quantities of a record."""
         return OF_A_RECORD
-
-    @property
-    def prime(self) -> int | None:  # type: ignore[override]
-        """This is that of the systems."""
-        return self.first.prime
-
-    @property
-    def number_field(self) -> NumberField | None:  # type: ignore[override]
-        """This is that of the systems."""
-        return self.first.number_field
-
-    @property
-    def denominator(self) -> int:  # type: ignore[override]
-        """This is that of all entries."""
-        return self.first.denominator
-
-    @property
-    def sizes(self) -> Mapping[str, tuple[int, int, int]]:
-        """These are n, m, p of the system, and n, nu, p of (A, B, C, D)."""
-        return {name: (one.n, one.m, one.p) for name, one in (("", self.first), ("inputs", self.inputs))}
 
     @property
     def samples(self) -> int:
@@ -79,21 +56,21 @@ class Records(Many):
 
     def case(self, index: int) -> Record:
         """Return one of the records."""
-        system, inputs = self.first.system(int(self.firsts[index])), self.inputs.system(int(self.seconds[index]))
+        system, inputs = self.first.system(int(self.firsts[index])), self.second.system(int(self.seconds[index]))
         u, x0 = (exactly(part[index], self.denominator, self.number_field, self.prime) for part in (self.u, self.x0))
         return Record(FaultySystem(system, inputs.F, inputs.G), u, x0)
 
     def matrix(self, subject: str, name: str) -> Integers:
         """Return A, F, C or G of one of the two systems, B, D, u or x0."""
         if subject or name in ("B", "D"):
-            return self.inputs.matrix("", {"B": "F", "D": "G"}.get(name, name))[self.seconds]
+            return self.second.matrix("", {"B": "F", "D": "G"}.get(name, name))[self.seconds]
         if name in ("u", "x0"):
             return self.u if name == "u" else self.x0
         return self.first.matrix("", name)[self.firsts]
 
     def part(self, rows: Chosen) -> Records:
         """Return the records of these rows; what is known of the systems stays known."""
-        return Records(self.first, self.firsts[rows], self.inputs, self.seconds[rows], self.u[rows], self.x0[rows])
+        return Records(self.first, self.firsts[rows], self.second, self.seconds[rows], self.u[rows], self.x0[rows])
 
     def column(self, key: Any, rows: Chosen, find: Callable[[Any], Integers] | None = None) -> Integers:
         """Return the numbers of a family of one of the systems, of the data, or of what `find` finds. Raises Overflow."""
@@ -102,9 +79,7 @@ class Records(Many):
         if isinstance(key, tuple) and key[0] in DATA:
             family, k = key
             return self.kept(key, rows, lambda part: leading_ranks(DATA[family](part, k), part.prime)[:, -1:] // part.degree)
-        batch, places, name = (self.inputs, self.seconds, key[1]) if isinstance(key, tuple) else (self.first, self.firsts, key)
-        distinct, which = np.unique(places[rows], return_inverse=True)
-        return batch.column(name, distinct)[which]
+        return self.of_system(key, rows)
 
     @property
     def inputs_in_time(self) -> Integers:
@@ -115,7 +90,7 @@ class Records(Many):
 
     def trajectory(self) -> tuple[Integers, Integers]:
         """Return the states x(0), ..., x(N) as columns (cases, N + 1, n d, d), and outputs (cases, N, p d, d). Raises Overflow."""
-        A, B, C, D = (self.inputs.matrix("", name)[self.seconds] for name in "AFCG")
+        A, B, C, D = (self.second.matrix("", name)[self.seconds] for name in "AFCG")
         state, states, outputs = self.x0, [self.x0], []
         for u in np.moveaxis(self.inputs_in_time, 1, 0):
             outputs.append(self.sum(self.product(C, state), self.product(D, u)))

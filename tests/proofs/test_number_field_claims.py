@@ -16,7 +16,6 @@ from faultspace.exact.algebra.embeddings import RealField, inside_the_circle, on
 from faultspace.exact.algebra.fields import QQ, NumberField, PrimeField
 from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.system.systems import ResidualSystem
-from faultspace.proofs.brought.boxes import stretches
 from faultspace.proofs.brought.claiming import explain
 from faultspace.proofs.brought.claims import make_claim
 from faultspace.proofs.brought.fields import in_a, read_entries, read_field, usual_entries
@@ -150,7 +149,7 @@ def test_whether_a_system_is_stable_depends_on_the_root() -> None:
 def systems_of(text: str, sizes: tuple[int, int, int], count: int, entries: list[Any] | None = None) -> tuple[Any, list[int]]:
     given: dict[str, Any] = {"conclusion": "True", "fields": [text]}
     box = make_claim("x", given | {"box": {"n": [0, 3], "m": [0, 2], "p": [0, 2]} | ({"entries": entries} if entries else {})}).boxes[text]
-    stretch = next(stretches(box, sizes, reduced=False))
+    stretch = next(box.stretches(sizes, reduced=False))
     return stretch.batch, sorted(random.Random(text).sample(range(len(stretch.batch)), min(count, len(stretch.batch))))
 
 
