@@ -10,7 +10,15 @@ import pytest
 
 from faultspace.exact.limits.experiments import Experiment
 from faultspace.proofs.claims import assumption_2, past_outputs, proposition_1, settle_1
-from faultspace.proofs.evidence.experiments import FAMILIES, LIMITS, LimitEvidence, examine_experiment, experiments_in_order, first_look
+from faultspace.proofs.evidence.experiments import (
+    FAMILIES,
+    LIMITS,
+    Drawn,
+    LimitEvidence,
+    examine_experiment,
+    experiments_in_order,
+    first_look,
+)
 from faultspace.proofs.hypotheses.aimed_experiments import small_experiments
 from faultspace.proofs.hypotheses.consistency import SMALL, consistency, driven
 from faultspace.proofs.verdict.ablation import ablate
@@ -29,7 +37,7 @@ def quiet(stage: str, done: int, total: int) -> None:
 def bench() -> Workbench:
     """Return a workbench with experiments of each family, fourteen in a thorough run, and more of those in which v is independent of u."""
     made = Workbench("quick", 1, quiet)
-    counts = {name: 120 if name == "v independent of u" else 30 if "independent" in name else 14 for name in FAMILIES}
+    counts = {name: 120 if name == Drawn.INDEPENDENT else 30 if "independent" in name else 14 for name in FAMILIES}
     made.limits = tuple(one for name, count in counts.items() for seed in range(0, count, every()) for one in LIMITS.make((name, seed)))
     return made
 
