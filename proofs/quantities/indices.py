@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from ..evidence import certified
 from ..evidence import questions as ask
-from . import certified
 from .ranks import OBSERVED, REACHED
 from .registry import Kind, Quantity, Told
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import inf
 
+from ..evidence import certified
 from ..evidence import questions as ask
-from . import certified
 from .ranks import DRIVEN, LATER, WINDOW, Ranks
 from .registry import Kind, Quantity, Told
 

@@ -21,10 +21,10 @@ from importlib import import_module
 from pkgutil import iter_modules
 from typing import Any
 
+from ..evidence.certified import Certifier
 from ..evidence.questions import Question
-from .certified import Certifier
+from ..evidence.subjects import Subject
 from .ranks import Ranks
-from .subjects import Subject
 
 
 class Kind(StrEnum):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from . import certified
+from ..evidence import certified
 from .registry import Kind, Quantity, Told
 
 QUANTITIES = (

@@ -7,8 +7,8 @@ rank [R_n; T_n] - rank T_n that of S*, R_n = [A^(n-1) F, ..., F]. S* is the orth
 
 from __future__ import annotations
 
+from ..evidence import certified
 from ..evidence import questions as ask
-from . import certified
 from .ranks import DRIVEN, OBSERVED, REACHED, SILENT, WINDOW
 from .registry import Kind, Quantity, Told
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from ...exact.structure.fault_columns import fault_space_dimension
+from ..evidence import certified
 from ..evidence import questions as ask
 from ..evidence.corpus import Evidence
-from . import certified
+from ..evidence.subjects import Subject
 from .ranks import DRIVEN, OBSERVED, WINDOW, Ranks
 from .registry import Kind, Quantity, Told
-from .subjects import Subject
 
 
 def _driven(subject: Subject, s: int) -> int:

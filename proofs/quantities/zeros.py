@@ -17,11 +17,11 @@ from ...exact.algebra.embeddings import inside_the_circle, stable_there
 from ...exact.algebra.matrices import rank, stacked
 from ...exact.algebra.polynomials import interpolate
 from ...exact.algebra.stability import is_schur
+from ..evidence import certified
 from ..evidence import questions as ask
-from . import certified
+from ..evidence.subjects import Subject
 from .ranks import CHARACTERISTIC, MINORS, Ranks
 from .registry import Kind, Quantity, Told
-from .subjects import Subject
 
 
 def zero_polynomial(ranks: Ranks) -> tuple[Fraction, ...]:

@@ -19,12 +19,12 @@ from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.brought.claiming import explain
 from faultspace.proofs.brought.claims import make_claim
 from faultspace.proofs.brought.fields import in_a, read_entries, read_field, usual_entries
+from faultspace.proofs.evidence.subjects import Subject
 from faultspace.proofs.language.by_batches import Table, true_of
 from faultspace.proofs.language.evaluating import evaluate, exactly
 from faultspace.proofs.language.grammar import read
 from faultspace.proofs.quantities.ranks import CHARACTERISTIC, FAMILIES, MINORS, Ranks
 from faultspace.proofs.quantities.registry import quantities
-from faultspace.proofs.quantities.subjects import Subject
 from faultspace.proofs.trust.structure_certificates import accept
 from tests.oracle.words import by_definition, windows_by_definition
 from tests.thorough import examples

@@ -19,6 +19,7 @@ from ...exact.structure.kernel_rows import KernelRepresentation, kernel_represen
 from ...exact.structure.pencil import infinite_zero_orders, invariant_zero_polynomial
 from ...exact.structure.zero_output import chain_from_rest
 from ...exact.system.systems import ResidualSystem
+from .kept_kernels import kernel_once
 
 
 class Subject:
@@ -40,12 +41,12 @@ class Subject:
     @cached_property
     def kernel(self) -> KernelRepresentation:
         """This has the left minimal indices and the rank of [O_s T_s] for every s."""
-        return kernel_representation(self.system)
+        return kernel_once(self.system)
 
     @cached_property
     def dual(self) -> KernelRepresentation:
         """This has the right minimal indices."""
-        return kernel_representation(self.transposed)
+        return kernel_once(self.transposed)
 
     @cached_property
     def silent(self) -> KernelRepresentation:
