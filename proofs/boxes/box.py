@@ -5,6 +5,7 @@
     Share         how much of the cases of some sizes one process goes through
     in_order      the systems of a box of which expressions of the language are true, one after the other; of_sizes: of some sizes
     rows_where    which of many systems expressions are true of
+    matrices_in_order    the matrices of a shape with the usual entries
 
 The order is by n + m + p, then n, m, p, then the largest numerator or denominator of the entries, then by the entries of A, F, C, G, by
 rows, -1 before 0 before 1. Over GF(q) the entries are the residues between -q/2 and q/2, in the order of the integers.
@@ -31,6 +32,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...exact.algebra.fields import QQ, Field, NumberField, PrimeField
+from ...exact.algebra.matrices import Matrix
 from ...exact.system.systems import ResidualSystem
 from ..language.by_batches import Table, true_of
 from ..language.grammar import read
@@ -297,3 +299,9 @@ def in_order(box: Box, *texts: str, reduced: bool = False) -> Iterator[ResidualS
     """Yield such systems of all sizes of the box, in order."""
     for sizes in box.sizes():
         yield from of_sizes(box, sizes, *texts, reduced=reduced)
+
+
+def matrices_in_order(rows: int, columns: int) -> Iterator[Matrix]:
+    """Yield every matrix over Q of this shape with entries -1, 0 and 1, by rows, -1 before 0 before 1."""
+    for entries in product((-1, 0, 1), repeat=rows * columns):
+        yield Matrix.of([list(entries[i * columns : (i + 1) * columns]) for i in range(rows)], shape=(rows, columns))

@@ -6,13 +6,12 @@ Part (ii) is decided for each P: the pair is equivalent iff its normal rank is t
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from itertools import product
 
 from ...exact.algebra.matrices import Matrix, column_basis
 from ...exact.structure.behavior import compare
 from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.structure.kernel_rows import KernelRepresentation
-from ..boxes.box import Box, in_order
+from ..boxes.box import Box, in_order, matrices_in_order
 from ..evidence.alternatives import AlternativeEvidence, comparison_certificate, ranked
 from ..evidence.kept_kernels import kernel_once
 from ..trust import structure_certificates as make
@@ -81,10 +80,7 @@ def _smallest_bad_pair(
     for system in in_order(BOX, "observable and left_invertible"):
         kernel = kernel_once(system)
         space, seen = fault_space(kernel, window(kernel)), set[Matrix]()
-        for entries in product((-1, 0, 1), repeat=space.dimension * system.m):
-            P = Matrix.of(
-                [list(entries[i * system.m : (i + 1) * system.m]) for i in range(space.dimension)], shape=(space.dimension, system.m)
-            )
+        for P in matrices_in_order(space.dimension, system.m):
             columns = column_basis(P)
             if columns.ncols < system.m or columns in seen:
                 continue

@@ -8,14 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import product
 from random import Random
 
 from ...exact.algebra.matrices import Matrix, rank, stacked
 from ...exact.structure.behavior import compare
 from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.system.systems import ResidualSystem
-from ..boxes.box import Box, in_order
+from ..boxes.box import Box, in_order, matrices_in_order
 from ..evidence.alternatives import ALTERNATIVES, AlternativeEvidence, comparison_certificate, examine_alternative
 from ..evidence.kept_kernels import kernel_once, space_once
 from ..evidence.material import Material
@@ -136,9 +135,7 @@ def _smallest(bench: Workbench, dropped: Sequence[str]) -> Found[Pair]:
             kernel = kernel_once(system)
             for s in range(1 if "s >= lag + 1" in dropped else kernel.lag + 1, kernel.lag + 2):
                 space = fault_space(kernel, s)
-                shape = (space.dimension, system.m)
-                for entries in product((-1, 0, 1), repeat=shape[0] * shape[1]):
-                    P = Matrix.of([list(entries[i * system.m : (i + 1) * system.m]) for i in range(shape[0])], shape=shape)
+                for P in matrices_in_order(space.dimension, system.m):
                     pair = Pair(system, with_pair(space, P), s, False, 1, 0)
                     if bool(pair.degenerate) == poor and all(test(pair) for test in kept) and _differs(pair):
                         yield pair

@@ -15,7 +15,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import product
 from random import Random
 
 from ...exact.algebra.matrices import Matrix, rank
@@ -25,7 +24,7 @@ from ...exact.pairs.witnesses import BadPair, bad_pair
 from ...exact.structure.fault_columns import with_pair
 from ...exact.structure.pencil import infinite_zero_orders
 from ...exact.system.systems import ResidualSystem
-from ..boxes.box import Box, in_order
+from ..boxes.box import Box, in_order, matrices_in_order
 from ..claims.one_determinant import agrees
 from ..claims.one_determinant import show as show_pair
 from ..evidence.alternatives import comparison_certificate
@@ -227,14 +226,12 @@ def _smallest_pair(hypotheses: Mapping[str, Callable[[Chosen], bool]], bench: Wo
             if degenerate(system) and not poor:
                 continue
             pencil = pencil_of(system)
-            rows, cols = pencil.n_z, pencil.columns
-            for entries in product((-1, 0, 1), repeat=rows * cols):
-                P = Matrix.of([list(entries[i * cols : (i + 1) * cols]) for i in range(rows)], shape=(rows, cols))
-                if rank(P) < cols and not poor:
+            for P in matrices_in_order(pencil.n_z, pencil.columns):
+                if rank(P) < pencil.columns and not poor:
                     continue
                 pair = kernel_once(with_pair(pencil.space, P))
                 count = len(polynomial_at(pencil, P)) - 1 + sum(infinite_zero_orders(pair))
-                if pair.normal_rank < cols or count != pencil.zeta:
+                if pair.normal_rank < pencil.columns or count != pencil.zeta:
                     subject = Chosen(examine_by_polynomial("search", "search", system, P, None, 1))
                     if bool(subject.degenerate) == poor and all(test(subject) for test in kept) and not _as_many(subject):
                         yield subject
