@@ -9,6 +9,7 @@ from itertools import product
 
 import pytest
 
+from faultspace.base.progress import silent
 from faultspace.proofs.boxes.box import Box, in_order, rows_where
 from faultspace.proofs.evidence.corpus import CORPUS, examine
 from faultspace.proofs.evidence.questions import RANKS
@@ -24,10 +25,6 @@ from faultspace.proofs.verdict.verdicts import Row, Verdict
 from faultspace.proofs.verdict.workbench import Workbench
 from faultspace.proofs.verification import _Machine, _row_with_theorems
 from tests.oracle import inspect_slowly
-
-
-def quiet(stage: str, done: int, total: int) -> None:
-    """Return a progress that nobody watches."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +57,7 @@ def ablation(subjects: Sequence[Triple]) -> Ablation[Triple]:
 
 
 def rows_of(made: Ablation[Triple], expected: dict[str, str] | None = None) -> dict[str, Row]:
-    return {" ".join(row.dropped): row for row in ablate(Workbench("quick", 1, quiet), made, expected or {})}
+    return {" ".join(row.dropped): row for row in ablate(Workbench("quick", 1, silent), made, expected or {})}
 
 
 def rows(subjects: Sequence[Triple]) -> dict[str, Row]:
@@ -158,7 +155,7 @@ def test_a_counterexample_to_what_is_proved_is_an_error() -> None:
 @pytest.fixture(scope="module")
 def bench() -> Workbench:
     """Return a workbench with every ninth system of the quick corpus and every fourth of the aimed ones, twenty for each hypothesis."""
-    made = Workbench("quick", 1, quiet)
+    made = Workbench("quick", 1, silent)
     made.put_answers(CORPUS, [examine(*item) for item in list(CORPUS[RANKS].items(made))[::9]])
     few = [*HIDDEN_ZEROS, *list(aimed_systems(80))[::4]]
     made.put_answers(AIMED, [examine("aimed", system) for system in few])

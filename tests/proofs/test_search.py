@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from faultspace.base.progress import silent
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.boxes import box as boxes
 from faultspace.proofs.boxes.box import Box, in_order, of_sizes
@@ -56,7 +57,7 @@ def test_what_is_known_of_a_box_serves_the_next_and_is_not_found_again(monkeypat
         return [batch.system(i) for batch in bench.searched(box) for i in range(len(batch))]
 
     monkeypatch.setattr(boxes, "AT_ONCE", 20)
-    bench, small, large = Workbench("quick", 1, lambda *_: None), Box(n=(1, 1), m=(1, 1), p=(1, 1), total=3), Box(m=(1, 1), total=4)
+    bench, small, large = Workbench("quick", 1, silent), Box(n=(1, 1), m=(1, 1), p=(1, 1), total=3), Box(m=(1, 1), total=4)
     next(iter(bench.searched(large)))
     assert seen(bench, small) == list(in_order(small, reduced=True))
     assert seen(bench, large) == list(in_order(large, reduced=True))
