@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import inf
 
+from ...exact.structure.inversion import delay_known_state, delay_unknown_state
 from ..evidence import certified
 from ..evidence import questions as ask
 from .ranks import DRIVEN, LATER, WINDOW, Ranks
@@ -29,7 +30,7 @@ QUANTITIES = (
         "delay_known",
         Kind.INTEGER,
         "the least l with which r(0), ..., r(l) determine v(0), the initial state being known; inf where none does",
-        lambda x: _or_inf(x.delay_known),
+        lambda x: _or_inf(delay_known_state(x.kernel)),
         _known,
         certified.delay_known,
         told=Told((ask.DELAY_KNOWN_STATE,), lambda e: _or_inf(e.delay_known_state)),
@@ -39,7 +40,7 @@ QUANTITIES = (
         "delay_unknown",
         Kind.INTEGER,
         "the least l with which r(0), ..., r(l) determine v(0) whatever x(0) is; inf where none does",
-        lambda x: _or_inf(x.delay_unknown),
+        lambda x: _or_inf(delay_unknown_state(x.kernel)),
         _unknown,
         certified.delay_unknown,
         told=Told((ask.DELAY_UNKNOWN_STATE,), lambda e: _or_inf(e.delay_unknown_state)),
