@@ -200,12 +200,12 @@ def _predicted(found: PopulationLimits, order: int) -> bool:
     return toeplitz(lags, now, far) == weights @ toeplitz(lags, near, far)
 
 
-def _sources(bench: Any) -> list[tuple[Drawn, int]]:
+def _sources(bench: Any) -> list[tuple[str, int]]:
     count = 400 if bench.full else 8
     return [(name, seed) for name in FAMILIES for seed in range(MORE.get(name, 1) * count)]
 
 
-def _examined(item: tuple[Drawn, int]) -> list[LimitEvidence]:
+def _examined(item: tuple[str, int]) -> list[LimitEvidence]:
     name, seed = item
     return [examine_experiment(name, FAMILIES[name](Random(f"{name} {seed}")))]
 
@@ -390,7 +390,7 @@ def _white_fault(random: Random) -> Experiment:
     return independent_white(_system(random, 1, 1))
 
 
-FAMILIES: dict[Drawn, Callable[[Random], Experiment]] = {
+FAMILIES: dict[str, Callable[[Random], Experiment]] = {
     Drawn.INDEPENDENT: _independent,
     Drawn.INDEPENDENT_AUTOREGRESSIVE: _independent_autoregressive,
     Drawn.DEGENERATE: _degenerate,
@@ -408,7 +408,7 @@ FAMILIES: dict[Drawn, Callable[[Random], Experiment]] = {
 
 
 # Families of which more are drawn, since few of them meet the hypotheses of some reading.
-MORE = {Drawn.INDEPENDENT: 3, Drawn.INDEPENDENT_AUTOREGRESSIVE: 2}
+MORE: dict[str, int] = {Drawn.INDEPENDENT: 3, Drawn.INDEPENDENT_AUTOREGRESSIVE: 2}
 
 
 def nilpotent_points(largest: int = 3) -> Iterator[Experiment]:
