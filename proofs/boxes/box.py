@@ -5,6 +5,7 @@
     Share         how much of the cases of some sizes one process goes through
     in_order      the systems of a box of which expressions of the language are true, one after the other; of_sizes: of some sizes
     rows_where    which of many systems expressions are true of
+    grouped       such systems, each with those that have something in common with it
     matrices_in_order    the matrices of a shape with the usual entries
 
 The order is by n + m + p, then n, m, p, then the largest numerator or denominator of the entries, then by the entries of A, F, C, G, by
@@ -20,6 +21,7 @@ change says whether its image comes earlier.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
@@ -299,6 +301,18 @@ def in_order(box: Box, *texts: str, reduced: bool = False) -> Iterator[ResidualS
     """Yield such systems of all sizes of the box, in order."""
     for sizes in box.sizes():
         yield from of_sizes(box, sizes, *texts, reduced=reduced)
+
+
+def grouped(box: Box, key: Callable[[ResidualSystem], object], *texts: str) -> Iterator[tuple[ResidualSystem, list[ResidualSystem]]]:
+    """Yield the systems of which these expressions are true, in order, each with all of those of its sizes that have its key."""
+    for sizes in box.sizes():
+        systems = list(of_sizes(box, sizes, *texts))
+        keys = [key(system) for system in systems]
+        groups: dict[object, list[ResidualSystem]] = defaultdict(list)
+        for system, name in zip(systems, keys, strict=True):
+            groups[name].append(system)
+        for system, name in zip(systems, keys, strict=True):
+            yield system, groups[name]
 
 
 def matrices_in_order(rows: int, columns: int) -> Iterator[Matrix]:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import cache
 
-from ...exact.algebra.matrices import column_basis
+from ...exact.algebra.matrices import Matrix, column_basis
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import window_matrix
-from ..boxes.box import Box, of_sizes
+from ..boxes.box import Box, grouped
 from ..evidence.alternatives import PAIRS, PairEvidence, comparison_certificate
 from ..evidence.corpus import CORPUS
 from ..evidence.families import shift_registers
@@ -90,19 +90,19 @@ def parametric(bench: Workbench) -> Outcome:
 
 def _smallest_pair(*, same_A_and_C: bool) -> Outcome:
     """The first system of the box with a partner equal on n samples but not on n + 1 makes it REFUTED, with its first partner."""
-    for n, m, p in BOX.sizes():
-        systems = list(of_sizes(BOX, (n, m, p), "observable and controllable and left_invertible"))
-        groups: dict[object, list[ResidualSystem]] = defaultdict(list)
-        for system in systems:
-            key = (column_basis(window_matrix(system, n)), (system.A, system.C) if same_A_and_C else None)
-            groups[key].append(system)
-        longer = {system: column_basis(window_matrix(system, n + 1)) for group in groups.values() if len(group) > 1 for system in group}
-        partners = {system: group for group in groups.values() for system in group}
-        for first in systems:
-            second = next((s for s in partners[first] if longer.get(s) != longer.get(first)), None)
-            if second is not None:
-                scope = f"{BOX}, both of the same dimensions, observable, controllable, left-invertible"
-                return counterexample(f"{first} against {second}", scope, _pair_certificates(first, second))
+
+    def key(system: ResidualSystem) -> object:
+        return column_basis(window_matrix(system, system.n)), (system.A, system.C) if same_A_and_C else None
+
+    @cache
+    def longer(system: ResidualSystem) -> Matrix:
+        return column_basis(window_matrix(system, system.n + 1))
+
+    for first, group in grouped(BOX, key, "observable and controllable and left_invertible"):
+        second = next((other for other in group if longer(other) != longer(first)), None) if len(group) > 1 else None
+        if second is not None:
+            scope = f"{BOX}, both of the same dimensions, observable, controllable, left-invertible"
+            return counterexample(f"{first} against {second}", scope, _pair_certificates(first, second))
     return Outcome(Verdict.ERROR, "no counterexample in the box")
 
 
