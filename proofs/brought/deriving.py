@@ -128,17 +128,17 @@ def _parts(one: Formula) -> Iterator[Formula]:
 def _meanings(nodes: Sequence[Node]) -> Iterator[Formula]:
     """Yield what the words mean that the claim uses, and those that stand in theorems."""
     zero = number(0)
-    known = [one for one in quantities().values() if not one.windowed]
-    for one in known:
-        if one.kind == Kind.INTEGER and not one.parts:
-            yield AtMostZero(zero - of_atom(Atom(one.name, finite=not one.infinite)))
-        for more in one.at_most:
-            yield AtMostZero(of_atom(Atom(one.name)) - of_atom(Atom(more)))
-        if one.kind == Kind.LIST and one.balance is not None:
-            whole = total(Node("sum", Kind.INTEGER, (Node("quantity", Kind.LIST, (), ("", one.name), "", 0),), None, "", 0))
-            more, less = balance(one.balance)
-            yield AtMostZero(zero - of_atom(Atom(f"sum({one.name})")))
-            yield Either((AtMostZero(number(1) - more + less), AtMostZero(whole)))  # an empty list has the sum 0
+    for known in quantities().values():
+        if known.kind == Kind.INTEGER and not (known.windowed or known.parts):
+            yield AtMostZero(zero - of_atom(Atom(known.name, finite=not known.infinite)))
+        for bound in known.at_most:
+            yield AtMostZero(of_atom(Atom(known.name)) - of_atom(Atom(bound)))
+        if known.kind == Kind.LIST and known.balance is not None:
+            listed = Node("quantity", Kind.LIST, (), ("", known.name), "", 0)
+            more, less = balance(known.balance)
+            yield AtMostZero(zero - of_atom(Atom(f"sum({known.name})")))
+            empty = AtMostZero(total(Node("sum", Kind.INTEGER, (listed,), None, "", 0)))
+            yield Either((AtMostZero(number(1) - more + less), empty))
     yield Finite(INFINITY, so=False)
     for one in matrices(nodes):
         try:

@@ -332,8 +332,8 @@ def _gathered(node: Node, env: Env) -> Sum:
         return of_atom(Atom(f"{node.op}({', '.join(map(str, parts))})", finite=all(finite) if node.op == "max" else any(finite)))
     name = _list(node.args[0])
     match node.op:
-        case "len" if name in quantities():
-            more, less = balance(quantities()[name].balance)
+        case "len" if (known := quantities().get(name)) is not None and known.balance is not None:
+            more, less = balance(known.balance)
             return more - less
         case "sum" if name == "infinite_zero_orders":
             return _quantity("infinite_zeros")
