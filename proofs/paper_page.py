@@ -23,11 +23,11 @@ from .rocq.premises import Instance, instances, premises
 from .rocq.sources import beyond, paths, sources
 from .rocq.statements import Statements, read
 from .verdict.ablation import Ablation
-from .verdict.ledger import Claim, Reading, expected_without, load
+from .verdict.ledger import OURS, Claim, Reading, expected_without, load
 from .verdict.verdicts import Verdict, of_readings
 from .verdict.workbench import Workbench
 
-PAPER, OURS = "[G25]", "ours"
+PAPER = "[G25]"
 THEORY, BEYOND = "../proofs/theory", "../proofs/theory_beyond"
 NONE = "no instance is computed"
 BY_THEOREMS = "what each of its theorems supposes can be met together"
@@ -145,12 +145,12 @@ def _section(claim: Claim, found: Sequence[ReadingRow]) -> Iterator[str]:
 
 
 def _differs(claim: Claim) -> str:
-    """Return which readings of the paper's words fail or hold, and which are ours."""
-    printed = [one for one in claim.readings if not one.repair]
+    """Return which readings of the words fail or hold, and which are ours."""
+    stated = [one for one in claim.readings if not one.repair]
     kinds = {
-        "Refuted as the paper can be read": [one for one in printed if one.expected == "REFUTED"],
-        "Standing as the paper can be read": [one for one in printed if one.expected != "REFUTED"],
-        "Ours, and not the paper's": [one for one in claim.readings if one.repair],
+        "Refuted readings of these words": [one for one in stated if one.expected == "REFUTED"],
+        "Standing readings of these words": [one for one in stated if one.expected != "REFUTED"],
+        "Ours": [one for one in claim.readings if one.repair],
     }
     return " ".join(f"{what}: {', '.join(one.id for one in found)}." for what, found in kinds.items() if found)
 

@@ -1,7 +1,7 @@
 """What the claims ask of a single system: each question has certificates of its own, and what they state is read back as the answer.
 
     Question       its name, the certificates that answer it, and how the answer is read off them
-    Answer         what accepted certificates state, and how many they are
+    Answer         what accepted certificates state, and which they are
     answered       the certificates of a question made, accepted by the checker, and read
     RANKS, ...     the questions; QUESTIONS has all of them, in order
     MINIMAL, ZEROS what tells whether a system is minimal and left-invertible, and what tells all of its zeros
@@ -47,10 +47,10 @@ class Question(Generic[A]):
 
 @dataclass(frozen=True)
 class Answer(Generic[A]):
-    """This is what accepted certificates state, and their number."""
+    """This is what accepted certificates state, and their SHA-256."""
 
     value: A
-    accepted: int
+    accepted: frozenset[str]
 
 
 def answered(question: Question[A], system: ResidualSystem) -> Answer[A]:
@@ -60,9 +60,8 @@ def answered(question: Question[A], system: ResidualSystem) -> Answer[A]:
     """
     subject = Subject(system)
     made = [certificate for maker in question.makers for certificate in maker(subject)]
-    for certificate in made:
-        accept(certificate)
-    return Answer(question.read(subject, made), len(made))
+    decided = frozenset(map(accept, made))
+    return Answer(question.read(subject, made), decided)
 
 
 def _kernel(subject: Subject, made: Sequence[Certificate]) -> KernelRepresentation:
