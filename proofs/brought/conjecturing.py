@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from ...base.errors import InvalidInput, shorten
 from ...base.progress import Progress, silent
 from ...base.threads import one_thread
+from ..boxes.box import Box
 from ..language.evaluating import Asked
 from ..language.grammar import OF_A_MATRIX
 from ..language.linear import linear, words
@@ -27,7 +28,6 @@ from ..quantities.cases import Case
 from ..quantities.elimination import Integers
 from ..quantities.registry import Kind
 from .bounds import ABOVE, BELOW, Fit, Fitted, Form, Grammar, fit
-from .boxes import Box
 from .claims import Claim, about_what, expression, make_claim
 from .conjectures import Bound, Conjectures, Evidence, Sharpened, Sharper
 from .deciding import certified

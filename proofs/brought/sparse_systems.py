@@ -19,13 +19,13 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 
 from ...base.progress import Progress
+from ..boxes.box import Box
 from ..language.by_batches import Table as Answers
 from ..language.by_batches import UndefinedAt, true_of
 from ..language.nodes import Node
 from ..quantities.batches import Batch
 from ..quantities.blocks import lifted
 from ..quantities.elimination import Integers
-from .boxes import Box
 from .drawn_cases import LARGEST_STATES, MOST_FAULTS, MOST_OUTPUTS
 from .tables import OUTSIDE, Table, add_batch
 

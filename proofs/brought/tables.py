@@ -22,6 +22,7 @@ import numpy as np
 from ...base.errors import InvalidInput
 from ...base.progress import Progress
 from ...base.tasks import ordered
+from ..boxes.box import Box, Share, Stretch
 from ..language.by_batches import Table as Answers
 from ..language.by_batches import UndefinedAt, Values, true_of, values_of
 from ..language.evaluating import evaluate, exactly
@@ -32,7 +33,6 @@ from ..language.vocabularies import VOCABULARIES
 from ..quantities.blocks import Scalars
 from ..quantities.cases import Case, size_of
 from ..quantities.many import Many
-from .boxes import Box, Share, Stretch
 from .direct_sums import direct_sums, sum_sizes
 from .drawn_cases import drawn
 from .kept import WORTH_SHARING
@@ -173,7 +173,7 @@ def _of_sizes(asked: _Asked, number: int, left: int, mine: int, of: int, tell: C
         try:
             _add_stretch(part, (number, k), stretch, asked.hypotheses, asked.columns)
         except UndefinedAt as error:
-            place = (number, k, int(stretch.places[error.index]))
+            place = (number, k, error.index)
             part.undefined = place, Undefined(str(error), stretch.batch.case(error.index))
             break
         if tell is not None:
@@ -187,8 +187,8 @@ def _add_stretch(part: _Part, at: tuple[int, int], stretch: Stretch, hypotheses:
     for node in hypotheses:
         rows = rows[true_of(node, stretch.batch, rows, part.answers.setdefault(node, Answers()))]
     for values, members in values_of(columns, stretch.batch, rows, part.answers.setdefault("columns", Answers())):
-        first = int(members[np.argmin(stretch.places[members])])
-        place, systems = (*at, int(stretch.places[first])), int(stretch.weights[members].sum())
+        first = int(members.min())
+        place, systems = (*at, first), int(stretch.weights[members].sum())
         old = part.rows.get(values)
         if old is None:
             part.rows[values] = Row(values, place, stretch.batch.case(first), systems)
@@ -241,7 +241,7 @@ def _add_drawn(table: Table, rows: dict[Values, Row], hypotheses: Sequence[Node]
 
 def add_batch(batch: Many, at: tuple[int, int], rows: dict[Values, Row], hypotheses: Sequence[Node], columns: Sequence[Node]) -> int:
     """Add cases outside the box, and return how many of them meet the hypotheses."""
-    part, each = _Part(), Stretch(batch, np.arange(len(batch)), np.ones(len(batch), dtype=np.int64))
+    part, each = _Part(), Stretch(batch, np.ones(len(batch), dtype=np.int64))
     try:
         _add_stretch(part, at, each, hypotheses, columns)
     except UndefinedAt as error:

@@ -10,8 +10,6 @@ import random
 from collections.abc import Iterator
 from itertools import islice
 
-import numpy as np
-
 from ...exact.algebra.fields import QQ, PrimeField
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.pairs.bad_variety import bad_set
@@ -19,11 +17,11 @@ from ...exact.pairs.polynomial import Exceptional, judge
 from ...exact.pairs.witnesses import BadPair, bad_pair
 from ...exact.structure.fault_columns import with_pair
 from ...exact.system.systems import ResidualSystem
+from ..boxes.box import Box, in_order
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.families import adversarial, random_systems
 from ..evidence.kept_kernels import kernel_once
 from ..evidence.pairs_by_polynomial import pencil_of
-from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, Unprovable, accept
 from ..verdict.verdicts import Outcome, Verdict
@@ -83,8 +81,8 @@ def codimension_two(bench: Workbench) -> Outcome:
 
 def codimension_unobservable(bench: Workbench) -> Outcome:
     """The codimension is claimed to be at least two when zeta >= 1, whether (A, C) is observable or not."""
-    box = Box(total=3, largest_n=1, largest_m=1, largest_p=1)
-    for system in systems_in_order(box, lambda f: np.asarray(~f.observable & f.left_invertible)):
+    box = Box(n=(1, 1), m=(1, 1), p=(1, 1), total=3)
+    for system in in_order(box, "not observable and left_invertible"):
         pencil = pencil_of(system)
         size = bad_set(pencil).codimension
         if pencil.zeta and size == 1:

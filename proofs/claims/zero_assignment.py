@@ -9,11 +9,11 @@ from ...exact.algebra.fields import QQ
 from ...exact.pairs.assignment import recoverable_pair
 from ...exact.pairs.polynomial import Exceptional
 from ...exact.system.systems import ResidualSystem
+from ..boxes.box import Box, in_order
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.families import adversarial, random_systems
 from ..evidence.kept_kernels import kernel_once
 from ..evidence.pairs_by_polynomial import PairByPolynomial, pencil_of
-from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
 from ..verdict.verdicts import Outcome, Verdict
@@ -33,8 +33,8 @@ def unobservable(bench: Workbench) -> Outcome:
 
 def without_observability(bench: Workbench) -> Outcome:
     """The same is claimed without observability; but an unobservable mode is a zero of every pair."""
-    box = Box(total=3, largest_n=1, largest_m=1, largest_p=1)
-    for system in systems_in_order(box, lambda f: ~f.observable & f.left_invertible):
+    box = Box(n=(1, 1), m=(1, 1), p=(1, 1), total=3)
+    for system in in_order(box, "not observable and left_invertible"):
         pencil = pencil_of(system)
         if pencil.zeta:
             certificates = [make.finite_zeros(system), make.matrix_rank("observability", system), *_space(pencil)]

@@ -8,7 +8,6 @@ same_model     equal for ever: is the second (A, Fhat P, C, Ghat P), once its st
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
@@ -18,20 +17,20 @@ from ...exact.algebra.matrices import Matrix, column_basis, rank, stacked
 from ...exact.structure.fault_columns import fault_space
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import window_matrix
+from ..boxes.box import Box, grouped
 from ..evidence.alternatives import ALTERNATIVES, PAIRS, PairEvidence, comparison_certificate, examine_pair
 from ..evidence.kept_kernels import kernel_once, space_once
 from ..evidence.material import Material
-from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench
 from .aimed import aimed_systems, other_columns
 from .changes_of_state import columns_moved, equivalent_pairs, moved, similarity
-from .facets import degenerate, facets, flags
+from .facets import degenerate, expressions, facets
 
-BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
-SMALLER = Box(total=4, largest_n=1, largest_m=2, largest_p=2)
+BOX = Box(n=(1, 2), m=(1, 2), p=(1, 2), total=5)
+SMALLER = Box(n=(1, 1), m=(1, 2), p=(1, 2), total=4)
 
 
 @dataclass(frozen=True)
@@ -187,25 +186,14 @@ def _examined(pair: tuple[ResidualSystem, ResidualSystem]) -> list[PairEvidence]
 MADE = Material("equivalent pairs", "comparing pairs made on purpose", _sources, _examined, 40)
 
 
-def _groups(
-    box: Box, dropped: Sequence[str], key: Callable[[ResidualSystem], object]
-) -> Iterator[tuple[ResidualSystem, list[ResidualSystem]]]:
-    """Yield every system of the box in order, with all those of its dimensions that share its key."""
-    for n, m, p in box.dimensions():
-        here = Box(total=n + m + p, largest_n=n, largest_m=m, largest_p=p, least_m=m)
-        systems = [s for s in systems_in_order(here, flags(ALONE - set(dropped), "both ")) if (s.n, s.m, s.p) == (n, m, p)]
-        groups: dict[object, list[ResidualSystem]] = defaultdict(list)
-        keys = [key(system) for system in systems]
-        for system, name in zip(systems, keys, strict=True):
-            groups[name].append(system)
-        for system, name in zip(systems, keys, strict=True):
-            yield system, groups[name]
-
-
 @lru_cache(maxsize=1 << 14)  # the same small systems are gone through for each hypothesis that is dropped
 def _outputs(system: ResidualSystem, s: int) -> Matrix:
     """Return the column space of [O_s T_s]."""
     return column_basis(window_matrix(system, s))
+
+
+def _kept(dropped: Sequence[str]) -> tuple[str, ...]:
+    return expressions(ALONE - set(dropped), "both ")
 
 
 def _words(box: Box) -> str:
@@ -222,7 +210,7 @@ def _smallest_agreeing(bench: Workbench, dropped: Sequence[str]) -> Found[Compar
         return shared, _outputs(system, system.n + extra)
 
     def counterexamples(poor: bool) -> Iterator[Compared]:
-        for first, group in _groups(box, dropped, key):
+        for first, group in grouped(box, key, *_kept(dropped)):
             if len(group) > 1 and (poor or not degenerate(first)):
                 longer = _outputs(first, 2 * first.n + 1)
                 for second in group:
@@ -237,7 +225,7 @@ def _smallest_outside(holds: Callable[[Compared], bool], bench: Workbench, dropp
     """Return the first system with an equivalent one for which the conclusion fails."""
 
     def counterexamples(poor: bool) -> Iterator[Compared]:
-        for first, group in _groups(SMALLER, dropped, lambda s: _outputs(s, 2 * s.n + 1)):
+        for first, group in grouped(SMALLER, lambda s: _outputs(s, 2 * s.n + 1), *_kept(dropped)):
             for second in group:
                 pair = Compared(first, second, None, True, 1, 0)
                 kept = SIMILAR in dropped or pair.similarity is not None

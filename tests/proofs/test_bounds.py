@@ -18,9 +18,9 @@ import faultspace as fs
 from faultspace.base.errors import InvalidInput
 from faultspace.base.progress import silent
 from faultspace.exact import PrimeField, Rationals, ResidualSystem
+from faultspace.proofs.boxes.box import Box
 from faultspace.proofs.brought import conjecturing, sparse_systems, tables
 from faultspace.proofs.brought.bounds import ABOVE, BELOW, Fit, Fitted, Form, Grammar, Term, fit, forms
-from faultspace.proofs.brought.boxes import Box
 from faultspace.proofs.brought.claims import Answered, make_box, make_claim
 from faultspace.proofs.brought.conjectures import Bound, Conjectures, Sharpened
 from faultspace.proofs.brought.conjecturing import sharpen

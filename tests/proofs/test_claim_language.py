@@ -13,7 +13,7 @@ import pytest
 from faultspace.base.errors import InvalidInput
 from faultspace.exact import ResidualSystem
 from faultspace.exact.algebra.fields import PrimeField
-from faultspace.proofs.brought.boxes import Box, stretches
+from faultspace.proofs.boxes.box import Box
 from faultspace.proofs.brought.claim_files import read_claims
 from faultspace.proofs.language.by_batches import Table, UndefinedAt, true_of
 from faultspace.proofs.language.evaluating import Exactly, evaluate
@@ -249,7 +249,7 @@ def test_many_systems_at_once_are_decided_as_one_by_one(text: str, prime: int | 
     node, table = read(text), Table()
     rng = np.random.default_rng(5)
     for sizes in ((1, 1, 1), (1, 2, 1), (2, 1, 2)):
-        table, stretch = Table(), next(stretches(box, sizes, reduced=False))
+        table, stretch = Table(), next(box.stretches(sizes, reduced=False))
         rows = np.sort(rng.choice(len(stretch.batch), 12, replace=False))
         exact = []
         for i in rows:

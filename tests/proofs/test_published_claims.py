@@ -11,12 +11,12 @@ import faultspace as fs
 from faultspace.base.progress import silent
 from faultspace.exact.algebra.fields import QQ, PrimeField, field_from_json
 from faultspace.packaged_examples import content
+from faultspace.proofs.boxes.box import Box
+from faultspace.proofs.boxes.record_box import RecordBox
 from faultspace.proofs.brought import deciding, known_systems
-from faultspace.proofs.brought.boxes import Box
 from faultspace.proofs.brought.claim_files import read_claims
 from faultspace.proofs.brought.claiming import decide_claims, explain
 from faultspace.proofs.brought.claims import Answered, Claim, make_claim
-from faultspace.proofs.brought.record_boxes import RecordBox
 from faultspace.proofs.language.vocabularies import SYSTEM
 from faultspace.proofs.quantities.cases import size_of
 from faultspace.proofs.trust.structure_certificates import accept

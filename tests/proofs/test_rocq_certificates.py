@@ -71,6 +71,7 @@ def test_the_kernel_proves_every_shipped_certificate_of_a_covered_kind() -> None
     assert recomputed(about) == [ACCEPTED] * len(about)
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_the_kernel_proves_small_certificates_of_every_covered_kind() -> None:
     every_one = sorted(small_ones(), key=kind_and_field)
@@ -80,6 +81,7 @@ def test_the_kernel_proves_small_certificates_of_every_covered_kind() -> None:
     assert recomputed(about) == [ACCEPTED] * len(about)
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_rocq_and_the_checker_agree_on_mutations() -> None:
     every = [(c, path, value) for c in small_ones() for path, value in mutations(c)]

@@ -325,6 +325,8 @@ def replay(about: list[Headline]) -> str:
     return "\n".join(lines) + "\n"
 
 
+@pytest.mark.programs
+@pytest.mark.mutants
 @pytest.mark.timeout(900)
 def test_a_changed_headline_is_refused(theory: Path) -> None:
     about = in_part(HEADLINES)

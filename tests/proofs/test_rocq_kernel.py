@@ -157,6 +157,7 @@ def test_only_what_the_kernel_computes_with_may_be_listed(
         second_check(tmp_path)
 
 
+@pytest.mark.programs
 @pytest.mark.skipif(rocq_build.found() is None or COQCHK is None, reason=rocq_build.INSTALL)
 def test_recheck_believes_nothing_that_was_compiled_before(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It does not believe even a forgery that nothing else notices: compiled files of another theory, with their digests, under our

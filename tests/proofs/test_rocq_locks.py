@@ -85,6 +85,8 @@ def test_a_headline_with_one_hypothesis_more_is_not_as_locked(name: str) -> None
         held(changed(headline.file, source(headline), with_hypothesis(headline)))
 
 
+@pytest.mark.programs
+@pytest.mark.mutants
 @pytest.mark.timeout(900)
 def test_the_hypothesis_is_one_that_proofs_alone_do_not_refuse() -> None:
     """With the same lemma and one name more in the proof, Rocq accepts it, and closed: what refuses it is the lock."""

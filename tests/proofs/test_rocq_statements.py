@@ -135,6 +135,7 @@ def _resolved(folder: Path, file: str) -> list[tuple[int, str, str]]:
     return [(int(m[1]), m[2], m[4].partition(":")[0] if m[3] == "<>" else f"{m[3]}.{m[4]}") for m in found if m]
 
 
+@pytest.mark.programs
 @pytest.mark.timeout(900)
 def test_the_words_of_a_statement_are_those_that_rocq_sees_in_it() -> None:
     """Every name that Rocq resolves to one of ours, in a statement or in a word, is one that the reading reaches."""

@@ -122,3 +122,13 @@ def solutions(subject: Subject, s: int | None = None) -> list[Certificate]:
 def stable(subject: Subject, *_: Any) -> list[Certificate]:
     """Return the certificate that A is Schur. Raises Unprovable where it is not: no kind says so."""
     return [make.schur_stable(subject.system)]
+
+
+def window_by_window(subject: Subject) -> list[Certificate]:
+    """Return the certificate of rank [O_s T_s], each matrix by itself, for s = 1, ..., n + 2."""
+    return [make.matrix_rank("window", subject.system, window=s) for s in range(1, subject.system.n + 3)]
+
+
+def solutions_by_window(subject: Subject) -> list[Certificate]:
+    """Return the certificates of the solutions of problem (11) for s = 1, ..., n + 2."""
+    return [one for s in range(1, subject.system.n + 3) for one in solutions(subject, s)]

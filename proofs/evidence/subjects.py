@@ -14,11 +14,12 @@ from functools import cached_property
 from ...exact.algebra.matrices import Matrix
 from ...exact.algebra.polynomials import Poly
 from ...exact.structure.fault_columns import FaultSpace, fault_space
-from ...exact.structure.inversion import delay_known_state, delay_unknown_state, largest_output_nulling
+from ...exact.structure.inversion import largest_output_nulling
 from ...exact.structure.kernel_rows import KernelRepresentation, kernel_representation
 from ...exact.structure.pencil import infinite_zero_orders, invariant_zero_polynomial
 from ...exact.structure.zero_output import chain_from_rest
 from ...exact.system.systems import ResidualSystem
+from .kept_kernels import kernel_once
 
 
 class Subject:
@@ -40,12 +41,12 @@ class Subject:
     @cached_property
     def kernel(self) -> KernelRepresentation:
         """This has the left minimal indices and the rank of [O_s T_s] for every s."""
-        return kernel_representation(self.system)
+        return kernel_once(self.system)
 
     @cached_property
     def dual(self) -> KernelRepresentation:
         """This has the right minimal indices."""
-        return kernel_representation(self.transposed)
+        return kernel_once(self.transposed)
 
     @cached_property
     def silent(self) -> KernelRepresentation:
@@ -77,16 +78,6 @@ class Subject:
     def zero_polynomial(self) -> Poly:
         """This is the product of the invariant polynomials of the pencil, monic, coefficients ascending."""
         return invariant_zero_polynomial(self.kernel, self.finite_zeros)
-
-    @cached_property
-    def delay_known(self) -> int | None:
-        """This is the delay of inversion with a known initial state, None where there is none."""
-        return delay_known_state(self.kernel)
-
-    @cached_property
-    def delay_unknown(self) -> int | None:
-        """This is the delay of inversion with an unknown initial state, None where there is none."""
-        return delay_unknown_state(self.kernel)
 
     @cached_property
     def weakly_unobservable(self) -> Matrix:

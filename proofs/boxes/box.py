@@ -1,8 +1,12 @@
-"""A box of small systems, gone through in order, one of each orbit where the claim allows it.
+"""A box of small cases, gone through in order, one of each orbit where the claim allows it.
 
-    Box           bounds on n, m, p and their sum, the entries, and the field
-    Stretch       systems of equal sizes and equal height, some of them, which follow each other in the order
-    stretches     all of a box, the smallest sizes first
+    Box           bounds on n, m, p and their sum, the entries, and the field: a box of systems, and what boxes of other cases share
+    Stretch       cases of equal sizes and equal height, some of them, which follow each other in the order
+    Share         how much of the cases of some sizes one process goes through
+    in_order      the systems of a box of which expressions of the language are true, one after the other; of_sizes: of some sizes
+    rows_where    which of many systems expressions are true of
+    grouped       such systems, each with those that have something in common with it
+    matrices_in_order    the matrices of a shape with the usual entries
 
 The order is by n + m + p, then n, m, p, then the largest numerator or denominator of the entries, then by the entries of A, F, C, G, by
 rows, -1 before 0 before 1. Over GF(q) the entries are the residues between -q/2 and q/2, in the order of the integers.
@@ -17,24 +21,32 @@ change says whether its image comes earlier.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from itertools import permutations, product
 from math import factorial
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...exact.algebra.fields import QQ, Field, NumberField, PrimeField
+from ...exact.algebra.matrices import Matrix
+from ...exact.system.systems import ResidualSystem
+from ..language.by_batches import Table, true_of
+from ..language.grammar import read
 from ..language.vocabularies import SYSTEM
 from ..quantities.batches import Batch
 from ..quantities.blocks import Number, Scalars, height
 from ..quantities.elimination import Integers
+from ..quantities.many import Chosen
 
 AT_ONCE, MOST_CHANGES = 60_000, 50_000
 Sizes = tuple[int, ...]
+Portion = tuple[Any, Integers]  # cases that follow each other in the order, and how many each stands for
 LARGEST_TABLE = 2 * 10**6  # rows of some fourteen numbers of eight bytes: a few hundred megabytes while they are sorted out
 
 
@@ -42,7 +54,14 @@ LARGEST_TABLE = 2 * 10**6  # rows of some fourteen numbers of eight bytes: a few
 class Box:
     """All systems with n, m, p in these ranges (first, last), n + m + p <= total, entries among these numbers, over Q, GF(prime) or a
     number field.
+
+    `about` is what the cases of the box are, `noun` and `one` what they are called, `tables` the matrices with the entries of the box.
     """
+
+    about: ClassVar[str] = SYSTEM
+    noun: ClassVar[str] = "systems"
+    one: ClassVar[str] = "system"
+    tables: ClassVar[tuple[tuple[str, str], ...]] = tuple(("", name) for name in "AFCG")
 
     n: tuple[int, int] = (1, 3)
     m: tuple[int, int] = (1, 2)
@@ -63,21 +82,6 @@ class Box:
         """This is the field of the entries."""
         return self.number_field or (QQ if self.prime is None else PrimeField(self.prime))
 
-    @property
-    def about(self) -> str:
-        """What the cases of the box are."""
-        return SYSTEM
-
-    @property
-    def noun(self) -> str:
-        """What they are called."""
-        return "systems"
-
-    @property
-    def one(self) -> str:
-        """What one of them is called."""
-        return "system"
-
     def sizes(self) -> list[Sizes]:
         """Return the (n, m, p) of the box in order."""
         n, m, p = (range(low, high + 1) for low, high in (self.n, self.m, self.p))
@@ -91,8 +95,22 @@ class Box:
         return found
 
     def stretches(self, sizes: Sizes, *, reduced: bool) -> Iterator[Stretch]:
-        """Yield all systems of these sizes in order; where `reduced`, one of each orbit alone. Raises OverflowError for too many."""
-        return stretches(self, sizes, reduced=reduced)
+        """Yield all cases of these sizes in order; where `reduced`, fewer that stand for all. Raises OverflowError for too many."""
+        for level in sorted({height(x) for x in self.entries}):
+            entries = [x for x in self.entries if height(x) <= level]
+            lower = any(height(x) < level for x in entries)
+            for cases, weights in self.portions(sizes, entries, reduced=reduced):
+                if not lower:
+                    yield Stretch(cases, weights)
+                    continue
+                matrices = [cases.matrix(*name) for name in self.tables]
+                high = np.flatnonzero(Scalars.of(entries, self.number_field).high(matrices, level))  # the others came with a lower one
+                if len(high):
+                    yield Stretch(cases.part(high), weights[high])
+
+    def portions(self, sizes: Sizes, entries: list[Number], *, reduced: bool) -> Iterator[Portion]:
+        """Yield the cases of these sizes with these entries, in order. Raises OverflowError for too many."""
+        return systems_in_order(self, sizes, entries, changes(self, sizes, reduced=reduced))
 
     @property
     def signed(self) -> bool:
@@ -102,22 +120,10 @@ class Box:
 
 @dataclass(frozen=True)
 class Stretch:
-    """Some cases of a box: `batch`, with the place of each in the order, (first A, then the rest), and the size of its orbit."""
+    """Some cases of a box, in order, and for each how many it stands for."""
 
     batch: Any
-    places: NDArray[np.int64]
     weights: NDArray[np.int64]
-
-
-def stretches(box: Box, sizes: tuple[int, ...], *, reduced: bool) -> Iterator[Stretch]:
-    """Yield all systems of these sizes in order; where `reduced`, the first of each orbit alone.
-
-    Raises OverflowError where there are more than 2 10^6 matrices A, or more triples (F, C, G), of these sizes: they do not fit a table.
-    """
-    for level in sorted({height(x) for x in box.entries}):
-        entries = [x for x in box.entries if height(x) <= level]
-        high = np.array([height(x) == level for x in entries])
-        yield from systems_in_order(box, sizes, entries, high, changes(box, sizes, reduced=reduced))
 
 
 def changes(box: Box, sizes: tuple[int, ...], *, reduced: bool) -> tuple[list[Integers], ...]:
@@ -126,12 +132,11 @@ def changes(box: Box, sizes: tuple[int, ...], *, reduced: bool) -> tuple[list[In
     return tuple(_changes(k, signed) if reduced else [np.eye(k, dtype=np.int64)] for k in sizes)
 
 
-def systems_in_order(
-    box: Box, sizes: tuple[int, ...], entries: list[Number], high: NDArray[np.bool_], group: tuple[list[Integers], ...]
-) -> Iterator[Stretch]:
-    """Yield the systems with these entries, of which at least one is `high`, in order; the first of each orbit of the group alone.
+def systems_in_order(box: Box, sizes: Sizes, entries: list[Number], group: tuple[list[Integers], ...]) -> Iterator[tuple[Batch, Integers]]:
+    """Yield the systems with these entries, in order; the first of each orbit of the group alone, with the size of the orbit.
 
-    The group has the changes of states, of faults and of outputs. Raises OverflowError as `stretches` does.
+    The group has the changes of states, of faults and of outputs. Raises OverflowError where there are more than 2 10^6 matrices A, or more
+    triples (F, C, G), of these sizes: they do not fit a table.
     """
     n, m, p = sizes
     base = len(entries)
@@ -142,11 +147,11 @@ def systems_in_order(
     states, faults, outputs = group
     both = all((one[-1] == -one[0]).all() for one in group)
     states = states[: len(states) // 2] if both and n else states  # what -T does, T does with the negatives of outputs and faults
-    every_A, numbers, stabilizers = _first_states(digits_of(base, lengths[0]), states, n, base)
+    every_A, stabilizers = _first_states(digits_of(base, lengths[0]), states, n, base)
     rest = digits_of(base, lengths[1])
-    triples: dict[bytes, tuple[Integers, Integers, Integers]] = {}
+    triples: dict[bytes, tuple[Integers, Integers]] = {}
 
-    def of(stabilizer: NDArray[np.bool_]) -> tuple[Integers, Integers, Integers]:
+    def of(stabilizer: NDArray[np.bool_]) -> tuple[Integers, Integers]:
         name = stabilizer.tobytes()
         if name not in triples:
             kept = [change for change, keeps in zip(states, stabilizer, strict=True) if keeps]
@@ -154,21 +159,15 @@ def systems_in_order(
         return triples[name]
 
     whole_group = len(states) * len(outputs) * len(faults)
-    for chosen in _portions(every_A, stabilizers, lambda one: len(of(one)[0])):
-        digits, places, weights = [], [], []
+    for chosen in _neighbours(every_A, stabilizers, lambda one: len(of(one)[0])):
+        digits, weights = [], []
         for i in chosen:
-            found, at, fixed = of(stabilizers[i])
-            whole = np.concatenate([np.broadcast_to(every_A[i], (len(found), lengths[0])), found], axis=1)
-            keep = np.ones(len(found), dtype=bool) if high.all() else high[places_of(whole, base)].any(axis=1)
-            digits.append(whole[keep])
-            places.append(numbers[i] * base ** lengths[1] + at[keep])
-            weights.append(whole_group // fixed[keep])
-        table = places_of(np.concatenate(digits), base)
-        if len(table):
-            parts = np.split(table, np.cumsum([n * n, n * m, p * n]), axis=1)
-            A, F, C, G = (scalars.matrices(part, *shape) for part, shape in zip(parts, ((n, n), (n, m), (p, n), (p, m)), strict=True))
-            batch = Batch(A, F, C, G, box.prime, scalars.scale, box.number_field)
-            yield Stretch(batch, np.concatenate(places), np.concatenate(weights))
+            found, fixed = of(stabilizers[i])
+            digits.append(np.concatenate([np.broadcast_to(every_A[i], (len(found), lengths[0])), found], axis=1))
+            weights.append(whole_group // fixed)
+        parts = np.split(places_of(np.concatenate(digits), base), np.cumsum([n * n, n * m, p * n]), axis=1)
+        A, F, C, G = (scalars.matrices(part, *shape) for part, shape in zip(parts, ((n, n), (n, m), (p, n), (p, m)), strict=True))
+        yield Batch(A, F, C, G, box.prime, scalars.scale, box.number_field), np.concatenate(weights)
 
 
 @dataclass
@@ -195,7 +194,7 @@ class Share:
             self.whole = False
 
 
-def _portions(every: Integers, stabilizers: NDArray[np.bool_], size: Callable[[NDArray[np.bool_]], int]) -> Iterator[list[int]]:
+def _neighbours(every: Integers, stabilizers: NDArray[np.bool_], size: Callable[[NDArray[np.bool_]], int]) -> Iterator[list[int]]:
     """Yield the numbers of neighbouring matrices A with together some AT_ONCE systems."""
     portion: list[int] = []
     held = 0
@@ -237,21 +236,19 @@ def _changes(size: int, signed: bool) -> list[Integers]:
     return [*half, *(-one for one in half)]
 
 
-def _first_states(digits: Integers, changes: list[Integers], n: int, base: int) -> tuple[Integers, Integers, NDArray[np.bool_]]:
-    """Return the matrices A that come first in their orbits, with their numbers, and which changes leave each as it is."""
+def _first_states(digits: Integers, changes: list[Integers], n: int, base: int) -> tuple[Integers, NDArray[np.bool_]]:
+    """Return the matrices A that come first in their orbits, and which changes leave each as it is."""
     powers = _powers(base, n * n)
-    numbers = np.arange(len(digits), dtype=np.int64)
     earlier = [powers - (T.T @ powers.reshape(n, n) @ T).ravel() for T in changes]
     for one in earlier:
-        keep = digits @ one <= 0
-        digits, numbers = digits[keep], numbers[keep]
-    return digits, numbers, np.stack([digits @ one == 0 for one in earlier], axis=1)
+        digits = digits[digits @ one <= 0]
+    return digits, np.stack([digits @ one == 0 for one in earlier], axis=1)
 
 
 def _first_rests(
     digits: Integers, kept: list[Integers], sides: tuple[list[Integers], list[Integers]], sizes: tuple[int, int, int], base: int
-) -> tuple[Integers, Integers, Integers]:
-    """Return the (F, C, G) that come first, with their numbers, and the number of changes that leave each as it is."""
+) -> tuple[Integers, Integers]:
+    """Return the (F, C, G) that come first, and the number of changes that leave each as it is."""
     n, m, p = sizes
     powers = _powers(base, digits.shape[1])
     F, C, G = (
@@ -266,16 +263,59 @@ def _first_rests(
     )
 
 
-def first_of_orbits(digits: Integers, earlier: list[Integers]) -> tuple[Integers, Integers, Integers]:
-    """Return the rows of digits that come first in their orbits, with their numbers, and how many changes leave each as it is.
+def first_of_orbits(digits: Integers, earlier: list[Integers]) -> tuple[Integers, Integers]:
+    """Return the rows of digits that come first in their orbits, and how many changes leave each as it is.
 
     The product of a row with an entry of `earlier` is its number less that of what a change makes of it.
     """
-    numbers = np.arange(len(digits), dtype=np.int64)
     for one in earlier:
-        keep = digits @ one <= 0
-        digits, numbers = digits[keep], numbers[keep]
+        digits = digits[digits @ one <= 0]
     fixed = np.zeros(len(digits), dtype=np.int64)
     for one in earlier:
         fixed += digits @ one == 0
-    return digits, numbers, fixed
+    return digits, fixed
+
+
+def rows_where(texts: tuple[str, ...], batch: Batch) -> Chosen:
+    """Return of which systems all these expressions of the language are true."""
+    rows = np.arange(len(batch))
+    for text in texts:
+        rows = rows[true_of(expression(text), batch, rows, Table())]
+    return rows
+
+
+expression = cache(read)
+
+
+def of_sizes(box: Box, sizes: Sizes, *texts: str, reduced: bool = False) -> Iterator[ResidualSystem]:
+    """Yield the systems of these sizes of which these expressions are true, in order; where `reduced`, the first of each orbit alone.
+
+    Renumbering and changes of sign of states, outputs and faults leave the expressions as they are.
+    """
+    for stretch in box.stretches(sizes, reduced=reduced):
+        for index in rows_where(texts, stretch.batch):
+            yield stretch.batch.system(int(index))
+
+
+def in_order(box: Box, *texts: str, reduced: bool = False) -> Iterator[ResidualSystem]:
+    """Yield such systems of all sizes of the box, in order."""
+    for sizes in box.sizes():
+        yield from of_sizes(box, sizes, *texts, reduced=reduced)
+
+
+def grouped(box: Box, key: Callable[[ResidualSystem], object], *texts: str) -> Iterator[tuple[ResidualSystem, list[ResidualSystem]]]:
+    """Yield the systems of which these expressions are true, in order, each with all of those of its sizes that have its key."""
+    for sizes in box.sizes():
+        systems = list(of_sizes(box, sizes, *texts))
+        keys = [key(system) for system in systems]
+        groups: dict[object, list[ResidualSystem]] = defaultdict(list)
+        for system, name in zip(systems, keys, strict=True):
+            groups[name].append(system)
+        for system, name in zip(systems, keys, strict=True):
+            yield system, groups[name]
+
+
+def matrices_in_order(rows: int, columns: int) -> Iterator[Matrix]:
+    """Yield every matrix over Q of this shape with entries -1, 0 and 1, by rows, -1 before 0 before 1."""
+    for entries in product((-1, 0, 1), repeat=rows * columns):
+        yield Matrix.of([list(entries[i * columns : (i + 1) * columns]) for i in range(rows)], shape=(rows, columns))

@@ -14,19 +14,19 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import product
 from math import lcm
+from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...exact.algebra.fields import PrimeField
 from ...exact.structure.fault_columns import FaultSpace, fault_space
 from ...exact.structure.kernel_rows import kernel_representation
 from ..language.vocabularies import CHOICE
 from ..quantities.batches import Batch
-from ..quantities.blocks import Number, Scalars, height
+from ..quantities.blocks import Number, Scalars
 from ..quantities.choices import Choices
 from ..quantities.elimination import Integers
-from .boxes import AT_ONCE, LARGEST_TABLE, Box, Sizes, Stretch, changes, digits_of, first_of_orbits, places_of, systems_in_order
+from .box import AT_ONCE, LARGEST_TABLE, Box, Portion, Sizes, changes, digits_of, first_of_orbits, places_of, systems_in_order
 
 SYSTEMS_AT_ONCE = 2000
 
@@ -35,22 +35,12 @@ SYSTEMS_AT_ONCE = 2000
 class ChoiceBox(Box):
     """All choices whose system is in the box and whose P has k columns, `k` being the first and the last number of them."""
 
+    about: ClassVar[str] = CHOICE
+    noun: ClassVar[str] = "choices"
+    one: ClassVar[str] = "choice"
+    tables: ClassVar[tuple[tuple[str, str], ...]] = (("", "P"), *Box.tables)
+
     k: tuple[int, int] = (1, 2)
-
-    @property
-    def about(self) -> str:
-        """What the cases of the box are."""
-        return CHOICE
-
-    @property
-    def noun(self) -> str:
-        """What they are called."""
-        return "choices"
-
-    @property
-    def one(self) -> str:
-        """What one of them is called."""
-        return "choice"
 
     def __str__(self) -> str:
         return f"{super().__str__()}, {self.k[0]} <= k <= {self.k[1]}"
@@ -66,36 +56,20 @@ class ChoiceBox(Box):
         found: int = super().count(n, m, p) * len(self.entries) ** ((n + p) * k)
         return found
 
-    def stretches(self, sizes: Sizes, *, reduced: bool) -> Iterator[Stretch]:
-        """Yield all choices of these sizes in order; where `reduced`, fewer that stand for all. Raises OverflowError for too many."""
-        for level in sorted({height(x) for x in self.entries}):
-            yield from self._level(sizes, level, reduced)
-
-    def _level(self, sizes: Sizes, level: int, reduced: bool) -> Iterator[Stretch]:
-        entries = [x for x in self.entries if height(x) <= level]
+    def portions(self, sizes: Sizes, entries: list[Number], *, reduced: bool) -> Iterator[Portion]:
+        """Yield the choices of each system with every P. Raises OverflowError for too many."""
         n, m, p, k = sizes
         states, faults, outputs = changes(self, (n, m, p), reduced=reduced)
         columns = changes(self, (k,), reduced=reduced)[0]
         tables: dict[int, tuple[Integers, Integers]] = {}
-        for stretch in systems_in_order(self, (n, m, p), entries, np.ones(len(entries), dtype=bool), (states[:1], faults, outputs[:1])):
-            order = np.argsort(stretch.places, kind="stable")
-            for some in np.array_split(order, 1 + len(order) // SYSTEMS_AT_ONCE):
-                if not len(some):
-                    continue
-                first, weights = stretch.batch.part(some), stretch.weights[some]
+        for batch, weights in systems_in_order(self, (n, m, p), entries, (states[:1], faults, outputs[:1])):
+            for some in np.array_split(np.arange(len(batch)), 1 + len(batch) // SYSTEMS_AT_ONCE):
+                first = batch.part(some)
                 spaces = [fault_space(kernel_representation(first.system(i))) for i in range(len(first))]
                 for one in {space.dimension for space in spaces} - set(tables):
                     tables[one] = _tables(self, entries, one, k, columns)
-                yield from _kept(_portions(first, spaces, tables), weights, entries, level)
-
-
-def _kept(portions: Iterator[tuple[Choices, Integers]], weights: Integers, entries: list[Number], level: int) -> Iterator[Stretch]:
-    """Yield those with an entry of this height."""
-    for chosen, times in portions:
-        keep = _high(chosen, entries, level)
-        if keep.any():
-            kept = chosen if keep.all() else chosen.part(np.flatnonzero(keep))
-            yield Stretch(kept, np.arange(len(kept)), (weights[chosen.firsts] * times)[keep])
+                for chosen, times in _portions(first, spaces, tables):
+                    yield chosen, weights[some][chosen.firsts] * times
 
 
 def _tables(box: ChoiceBox, entries: list[Number], n_z: int, k: int, columns: list[Integers]) -> tuple[Integers, Integers]:
@@ -104,7 +78,7 @@ def _tables(box: ChoiceBox, entries: list[Number], n_z: int, k: int, columns: li
     if base**length > LARGEST_TABLE:
         raise OverflowError
     powers = np.array([base**i for i in reversed(range(length))], dtype=np.int64).reshape(n_z, k)
-    found, _, fixed = first_of_orbits(digits_of(base, length), [(powers - powers @ V).ravel() for V in columns])
+    found, fixed = first_of_orbits(digits_of(base, length), [(powers - powers @ V).ravel() for V in columns])
     return Scalars.of(entries, box.number_field).matrices(places_of(found, base), n_z, k), len(columns) // fixed
 
 
@@ -139,7 +113,7 @@ def choices_of(
         G.append(columns[:, n:])
         times.append(weights)
     which = np.concatenate(firsts)
-    second = Batch(first.A[which], np.concatenate(F), first.C[which], np.concatenate(G), first.prime, first.denominator, first.number_field)
+    second = first.with_faults(which, np.concatenate(F), np.concatenate(G))
     heights = np.array([space.dimension for space in spaces])[which]
     return Choices(first, which, second, np.concatenate(P), heights, np.concatenate(scales)), np.concatenate(times)
 
@@ -152,11 +126,3 @@ def _integers(space: FaultSpace) -> tuple[Integers, int]:
         return np.array([int(x) for x in numbers], dtype=np.int64).reshape(shape), 1
     scale = lcm(*(int(x.q) for x in numbers))
     return np.array([int(x * scale) for x in numbers], dtype=np.int64).reshape(shape), scale
-
-
-def _high(choices: Choices, entries: list[Number], level: int) -> NDArray[np.bool_]:
-    """Return which choices have an entry of this height in the system or in P; the others came with a lower one."""
-    if all(height(x) == level for x in entries):
-        return np.ones(len(choices), dtype=bool)
-    scalars = Scalars.of(entries, choices.number_field)
-    return scalars.high([choices.P, *(choices.matrix("", name) for name in "AFCG")], level)

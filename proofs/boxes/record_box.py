@@ -13,17 +13,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
+from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..language.vocabularies import RECORD
-from ..quantities.batches import Batch
-from ..quantities.blocks import Number, Scalars, height
+from ..quantities.blocks import Number, Scalars
 from ..quantities.elimination import Integers
 from ..quantities.records import Records
-from .boxes import AT_ONCE, LARGEST_TABLE, Box, Sizes, Stretch, changes, digits_of, places_of, systems_in_order
-from .pair_boxes import fault_columns
+from .box import AT_ONCE, LARGEST_TABLE, Box, Portion, Sizes, changes, digits_of, places_of, systems_in_order
+from .pair_box import fault_columns
 
 LARGEST_NUMBER = 2**62
 
@@ -32,23 +31,13 @@ LARGEST_NUMBER = 2**62
 class RecordBox(Box):
     """All records whose system is in the box, with nu inputs and N samples: the first and the last number of them."""
 
+    about: ClassVar[str] = RECORD
+    noun: ClassVar[str] = "records"
+    one: ClassVar[str] = "record"
+    tables: ClassVar[tuple[tuple[str, str], ...]] = (*Box.tables, *(("", name) for name in ("B", "D", "u", "x0")))
+
     nu: tuple[int, int] = (1, 1)
     N: tuple[int, int] = (1, 5)
-
-    @property
-    def about(self) -> str:
-        """What the cases of the box are."""
-        return RECORD
-
-    @property
-    def noun(self) -> str:
-        """What they are called."""
-        return "records"
-
-    @property
-    def one(self) -> str:
-        """What one of them is called."""
-        return "record"
 
     def __str__(self) -> str:
         return f"{super().__str__()}, {self.nu[0]} <= nu <= {self.nu[1]}, {self.N[0]} <= N <= {self.N[1]}"
@@ -64,21 +53,12 @@ class RecordBox(Box):
         found: int = super().count(n, m, p) * len(self.entries) ** ((n + p) * nu + N * nu + n)
         return found
 
-    def stretches(self, sizes: Sizes, *, reduced: bool) -> Iterator[Stretch]:
-        """Yield all records of these sizes in order; where `reduced`, fewer that stand for all. Raises OverflowError for too many."""
-        for level in sorted({height(x) for x in self.entries}):
-            yield from self._level(sizes, level, reduced)
-
-    def _level(self, sizes: Sizes, level: int, reduced: bool) -> Iterator[Stretch]:
-        entries = [x for x in self.entries if height(x) <= level]
+    def portions(self, sizes: Sizes, entries: list[Number], *, reduced: bool) -> Iterator[Portion]:
+        """Yield the records of each system with every B, D, u and x0. Raises OverflowError for too many."""
         n, m, p, nu, N = sizes
         driven = fault_columns(self, (n, nu, p), entries, reduced)
         signals, starts = self._values(entries, N, nu), self._values(entries, n, 1)
-        for stretch in systems_in_order(
-            self, (n, m, p), entries, np.ones(len(entries), dtype=bool), changes(self, (n, m, p), reduced=reduced)
-        ):
-            order = np.argsort(stretch.places, kind="stable")
-            first, weights = stretch.batch.part(order), stretch.weights[order]
+        for first, weights in systems_in_order(self, (n, m, p), entries, changes(self, (n, m, p), reduced=reduced)):
             shape = len(first), len(driven.times), len(signals), len(starts)
             total = len(first) * len(driven.times) * len(signals) * len(starts)
             if total >= LARGEST_NUMBER:
@@ -87,13 +67,8 @@ class RecordBox(Box):
                 i, j, a, b = np.unravel_index(np.arange(start, min(start + AT_ONCE, total)), shape)
                 pair, seconds = np.unique(i * len(driven.times) + j, return_inverse=True)
                 own, given = pair // len(driven.times), pair % len(driven.times)
-                B, D = driven.F[given], driven.G[given]
-                inputs = Batch(first.A[own], B, first.C[own], D, first.prime, first.denominator, first.number_field)
-                records = Records(first, i, inputs, seconds, signals[a], starts[b])
-                keep = _high(records, entries, level)
-                if keep.any():
-                    kept = records if keep.all() else records.part(np.flatnonzero(keep))
-                    yield Stretch(kept, np.arange(len(kept)), (weights[i] * driven.times[j])[keep])
+                inputs = first.with_faults(own, driven.F[given], driven.G[given])
+                yield Records(first, i, inputs, seconds, signals[a], starts[b]), weights[i] * driven.times[j]
 
     def _values(self, entries: list[Number], rows: int, columns: int) -> Integers:
         """Return all matrices of that shape of these entries, times their common denominator, in order."""
@@ -101,11 +76,3 @@ class RecordBox(Box):
         if base ** (rows * columns) > LARGEST_TABLE:
             raise OverflowError
         return Scalars.of(entries, self.number_field).matrices(places_of(digits_of(base, rows * columns), base), rows, columns)
-
-
-def _high(records: Records, entries: list[Number], level: int) -> NDArray[np.bool_]:
-    """Return which records have an entry of this height; the others came with a lower one."""
-    if all(height(x) == level for x in entries):
-        return np.ones(len(records), dtype=bool)
-    scalars = Scalars.of(entries, records.number_field)
-    return scalars.high([records.matrix("", name) for name in ("A", "F", "C", "G", "B", "D", "u", "x0")], level)
