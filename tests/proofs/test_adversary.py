@@ -38,6 +38,7 @@ from tests.thorough import THOROUGH, every
 
 FALSE_REPAIR = "proposition-1.two-sided-range by a double pole"
 
+
 def attack(name: str) -> Attack:
     return next(one for one in catalogue() if one.id == name)
 
