@@ -129,6 +129,7 @@ def _instance(name: str) -> str:
     return f"`{name}_instance`, [{one.file}]({place}), line {one.line}"
 
 
+@cache
 def page() -> str:
     """Return the page: what its words mean, how many have an instance, then a section for each claim."""
     found = {claim: rows(claim) for claim in of_the_paper()}

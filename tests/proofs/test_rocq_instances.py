@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from docs.tools.premises import instances, together
 from faultspace.proofs.rocq.build import CLOSED, BrokenTheory, NoRocq, NotProved, compile_file, compiled_theory
-from faultspace.proofs.rocq.premises import instances, together
 from faultspace.proofs.rocq.sources import beyond, sources
 from faultspace.proofs.rocq.statements import Headline, read
 from faultspace.proofs.rocq.theorems import proposition

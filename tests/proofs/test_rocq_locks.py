@@ -9,9 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from docs.tools.pages import statements
 from faultspace.proofs.rocq import locks as rocq_locks
 from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, NotProved, compile_file, compiled_theory
-from faultspace.proofs.rocq.locks import held, kept, made, page, written
+from faultspace.proofs.rocq.locks import held, kept, made, written
 from faultspace.proofs.rocq.sources import THEORY, sources
 from faultspace.proofs.rocq.statements import Headline, read
 from faultspace.proofs.rocq.theorems import parted
@@ -50,14 +51,13 @@ def test_the_statements_are_those_that_are_locked() -> None:
     assert all(re.fullmatch("[0-9a-f]{64}", lock.sha256) for lock in locks.theorems.values())
 
 
-def test_the_files_of_the_locks_are_current() -> None:
+def test_the_file_of_the_locks_is_current() -> None:
     """A change that is wanted is locked by python -m faultspace.proofs.rocq.locks."""
     assert THEORY.joinpath("locks.json").read_text("utf-8") == written(made(TEXTS))
-    assert THEORY.joinpath("STATEMENTS.md").read_text("utf-8") == page(made(TEXTS), list(load()))
 
 
 def test_readings_theorems_and_locks_stand_side_by_side() -> None:
-    text, locks = THEORY.joinpath("STATEMENTS.md").read_text("utf-8"), made(TEXTS)
+    text, locks = statements(), made(TEXTS)
     rows = [line for line in text.splitlines() if line.startswith("| ") and re.search(r"`[0-9a-f]{64}` \|$", line)]
     listed = {name: row for row in rows if (name := re.split(r"` ?Theorem ", row)[1].split()[0])}
     assert set(listed) == set(locks.theorems) and all(lock.sha256 in listed[name] for name, lock in locks.theorems.items())
