@@ -40,8 +40,8 @@ refuted reading these are its counterexample. A matrix of the theorems is the tr
 ([row vectors](../../proofs/theory/README.md#row-vectors)). [The statements in full](statements.md) have every word that they use.
 
 - *Met by* tells a case that meets a reading, or what is proved of the premises of its theorems. Where the
-  [language of claims](../../docs/your-claims.md) says the reading, it is the smallest case of its box over Q in which C and F (of a record C
-  and B) are not zero and everything that it supposes holds, what an implication supposes that it concludes included. Where the reading is
+  [language of claims](../../docs/your-claims.md) says the reading, it is the smallest case of its box over Q in which C and F (of a record
+  C and B) are not zero and everything that it supposes holds, what an implication supposes that it concludes included. Where the reading is
   refuted, it is the smallest that also fails. The two systems of a pair may be one.
 - Of each theorem that supposes something of what it is about it is proved that all its premises *can be met together*: `NAME_instance`, a
   theorem on a small system, says just that, in the words of the headline. Each meets the premises of one theorem, which need not be all
