@@ -35,13 +35,13 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.bound.information_bound import COUNT, cramer_rao, relative_error
-from faultspace.numeric.model import arx_windows, reduced_model, reduction_search, weighted_reduction
-from faultspace.numeric.model.asymptotic_likelihood import arx_reduction
-from faultspace.numeric.model.models import StateSpaceModel
-from faultspace.numeric.model.past_inputs import pi_moesp
-from faultspace.numeric.model.past_outputs import po_moesp
-from faultspace.numeric.model.uncertainty import Uncertainty
+from faultspace.numeric.method.model import arx_windows, reduced_model, reduction_search, weighted_reduction
+from faultspace.numeric.method.model.asymptotic_likelihood import arx_reduction
+from faultspace.numeric.method.model.models import StateSpaceModel
+from faultspace.numeric.method.model.past_inputs import pi_moesp
+from faultspace.numeric.method.model.past_outputs import po_moesp
+from faultspace.numeric.method.model.uncertainty import Uncertainty
+from faultspace.numeric.study.bound.information_bound import COUNT, cramer_rao, relative_error
 
 Array = NDArray[np.float64]
 Method = Callable[[Trial], StateSpaceModel]

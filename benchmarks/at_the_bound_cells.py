@@ -23,10 +23,10 @@ import scipy.linalg
 import scipy.signal
 from numpy.typing import NDArray
 
-from faultspace.numeric.bound.spectra import Spectra, Spectrum, filtered, through, total, white
-from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.method.model.models import StateSpaceModel
+from faultspace.numeric.study.bound.driving_spectra import Spectra, Spectrum, filtered, through, total, white
+from faultspace.numeric.study.random_systems import study_system
 from faultspace.numeric.study.runs import LOW_PASS, NOISE_GAIN, coloured_noise, response, study_faults
-from faultspace.numeric.study.systems import study_system
 
 Array = NDArray[np.float64]
 

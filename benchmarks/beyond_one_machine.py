@@ -30,8 +30,8 @@ from numpy.typing import NDArray
 
 from faultspace import example_data as made
 from faultspace.base.threads import one_thread
-from faultspace.numeric.model.compression import compress_chunks
-from faultspace.numeric.model.past_inputs import pi_moesp_from_compression
+from faultspace.numeric.method.model.compression import compress_chunks
+from faultspace.numeric.method.model.past_inputs import pi_moesp_from_compression
 from faultspace.numeric.study.groups import Plan
 from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, monte_carlo
 

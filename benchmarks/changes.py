@@ -43,7 +43,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # run from a clone
 from benchmarks.changes_records import KINDS, SETTINGS, Drawn, record
 from benchmarks.kept_cases import Cases, interval
 from faultspace.numeric import Identification, Isolation, ShiftIsolation, arx_reduction, changes_since_healthy, identify, residual
-from faultspace.numeric.space.largest import largest_fault_space
+from faultspace.numeric.method.space.largest import largest_fault_space
 
 SIZES = (3.0, 10.0, 30.0)
 LOOPS = (False, True)

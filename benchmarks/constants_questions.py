@@ -23,13 +23,14 @@ from numpy.typing import NDArray
 from benchmarks.fault_dimension import CELLS, Cell, fault_signals, noise, random_plant, residuals
 from benchmarks.fault_space import SHAPES, Trial, angle, paper_like, two_rows
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.count import against_healthy, healthy_model, residual_laws
-from faultspace.numeric.count.one_row import WindowMoments
-from faultspace.numeric.count.rank_gap import fault_dimension
-from faultspace.numeric.count.residual_laws import LawLevel, law_level
-from faultspace.numeric.model import past_inputs
-from faultspace.numeric.space import by_likelihood
-from faultspace.numeric.space.result import FaultSpaceEstimate
+from faultspace.numeric.method.model import past_inputs
+from faultspace.numeric.method.ranks import residual_laws
+from faultspace.numeric.method.ranks.one_row import WindowMoments
+from faultspace.numeric.method.ranks.rank_gap import fault_dimension
+from faultspace.numeric.method.ranks.residual_laws import LawLevel, law_level
+from faultspace.numeric.method.space import by_likelihood
+from faultspace.numeric.method.space.estimate import FaultSpaceEstimate
+from faultspace.numeric.plant.healthy import against_healthy, healthy_model
 
 Array = NDArray[np.float64]
 Ask = Callable[[], "Answer"]

@@ -8,7 +8,7 @@ count       `count_faults` on random plants of order 5 with one input (`fault_di
             decibels below each output, equal for spread 1, else the loudest to the faintest in that ratio, in random order. Trial i of a
             cell has the seed --seed + i and depends on nothing else; with --out each is appended to FILE as a line of JSON
 merge       the same table from such files: parts of cells, made at different times; a trial that stands there twice counts once
-laws        the ratios of `laws.py` over what they should be, where several rows are laws and where there is a row too many: what
+laws        the ratios of `law_tests.py` over what they should be, where several rows are laws and where there is a row too many: what
             SHAPE_MISFIT and FLAT_MISFIT stand for, and the middle between the two that FAR stands for
 single      the ratios of single rows that are laws, at 300 to 30001 samples, with faults that fill all frequencies and with some that do
             not: the quantile regression that CROWDED and LOOSE stand for
@@ -39,14 +39,14 @@ from numpy.typing import NDArray
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # run from a clone, installed or not
 
 from benchmarks.fault_dimension import fault_signals, noise, random_plant
-from faultspace.numeric.rows import evidence as evidence_module
-from faultspace.numeric.rows import fault_count as count_module
-from faultspace.numeric.rows import laws as law_module
-from faultspace.numeric.rows import remainder as remainder_module
-from faultspace.numeric.rows.evidence import EXTRA, GONE, LONG, Evidence
-from faultspace.numeric.rows.fault_count import FAINTEST, MOST, count_faults
-from faultspace.numeric.rows.joint import PRECISION
-from faultspace.numeric.rows.laws import (
+from faultspace.numeric.method.rows import evidence as evidence_module
+from faultspace.numeric.method.rows import fault_count as count_module
+from faultspace.numeric.method.rows import law_tests as law_module
+from faultspace.numeric.method.rows import remainder as remainder_module
+from faultspace.numeric.method.rows.evidence import EXTRA, GONE, LONG, Evidence
+from faultspace.numeric.method.rows.fault_count import FAINTEST, MOST, count_faults
+from faultspace.numeric.method.rows.joint import PRECISION
+from faultspace.numeric.method.rows.law_tests import (
     ARRIVALS,
     ARRIVED,
     CROWDED,
@@ -61,9 +61,9 @@ from faultspace.numeric.rows.laws import (
     step_to_two,
     tested,
 )
-from faultspace.numeric.rows.remainder import SAMPLES, SWEEPS, TEST_BANDS, loose_samples
-from faultspace.numeric.space.basis import ROUGH
-from faultspace.numeric.study.systems import N_X
+from faultspace.numeric.method.rows.remainder import SAMPLES, SWEEPS, TEST_BANDS, loose_samples
+from faultspace.numeric.method.space.basis import ROUGH
+from faultspace.numeric.study.random_systems import N_X
 
 Array = NDArray[np.float64]
 
@@ -160,7 +160,7 @@ def line(cell: int, made: Sequence[Trial]) -> None:
 
 
 def laws(seed: int, trials: int, samples: int, clock: Clock, cells: Sequence[int]) -> None:
-    """Print what `laws.py` says of several rows by their ratios: of as many as are laws, and of one more, which are none."""
+    """Print what `law_tests.py` says of several rows by their ratios: of as many as are laws, and of one more, which are none."""
     shapes, flats, laws_far, others_far = list[float](), list[float](), list[float](), list[float]()
     for number in clock.range(trials):
         p, n_v, decibels, spread = COUNT_CELLS[cells[number % len(cells)]]

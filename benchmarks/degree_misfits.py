@@ -4,11 +4,11 @@
         [--short 500 1000 2000]
 
 The records are those of `space_at_the_bound_cells.py`; rows of the true degree and of all higher ones are fitted as `fault_space_by_rows`
-does. SLACK of `numeric/rows/degree.py` stands for what is printed, for one degree more and for several: the 90 % quantile of the ratio over
-that of its law, less one. The other columns say, for each kind of record, how often the ratio is beyond the 90 % quantile of its law with
-the constants as they are set, and how often the stated probability is below 1 %, which is where a degree that suffices is refused.
-`--short` repeats it on the same records for other values of SHORT of `numeric/rows/faint_faults.py`, the samples up to which the spectra of
-faint faults have as few bands as the test of sphericity: what is printed is to depend on it little.
+does. SLACK of `numeric/method/rows/degree.py` stands for what is printed, for one degree more and for several: the 90 % quantile of the
+ratio over that of its law, less one. The other columns say, for each kind of record, how often the ratio is beyond the 90 % quantile of its
+law with the constants as they are set, and how often the stated probability is below 1 %, which is where a degree that suffices is refused.
+`--short` repeats it on the same records for other values of SHORT of `numeric/method/rows/faint_faults.py`, the samples up to which the
+spectra of faint faults have as few bands as the test of sphericity: what is printed is to depend on it little.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from space_at_the_bound_cells import CELLS, Cell
 
 from benchmarks.counting_at_the_bound import one_in_ten, rate
-from faultspace.numeric.rows import faint_faults, space
-from faultspace.numeric.rows.degree import ENOUGH, SLACK, likelihood_ratio
+from faultspace.numeric.method.rows import faint_faults, space
+from faultspace.numeric.method.rows.degree import ENOUGH, SLACK, likelihood_ratio
 
 
 def ratios(cell: Cell, seed: int, number: int, samples: int) -> list[tuple[int, int, int, float]]:

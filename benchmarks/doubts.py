@@ -22,7 +22,7 @@ from scipy.signal import lfilter
 from scipy.stats import beta
 
 from faultspace.numeric import StateSpaceModel, arx_reduction, doubts, record_from
-from faultspace.numeric.doubt.listing import LEVEL, TESTED
+from faultspace.numeric.plant.doubt.listing import DOUBT_LEVEL, TESTED
 
 Array = NDArray[np.float64]
 BEFORE = 300  # samples after which the plant is where it would always have been
@@ -175,7 +175,8 @@ def main() -> None:
         some = sum(any(kind in TESTED for kind in one) for one in found)
         rows.append((fault, len(found), *each, some, interval(some, len(found)), sum("delay" in one for one in found)))
     table(("fault", "records", *TESTED, "any", "any, 95 %", "delay"), rows)
-    print(f"level of each test {LEVEL:g}; seed {arguments.seed}, {samples} samples, {(time.process_time() - start):.0f} CPU seconds\n")
+    seconds = time.process_time() - start
+    print(f"level of each test {DOUBT_LEVEL:g}; seed {arguments.seed}, {samples} samples, {seconds:.0f} CPU seconds\n")
     rows = []
     for index, (kind, change) in enumerate(PLANTED.items()):
         seen, besides = 0, 0

@@ -26,11 +26,11 @@ import numpy as np
 import scipy.signal
 from numpy.typing import NDArray
 
-from faultspace.numeric.count.against_healthy import fault_dimension_against_healthy
-from faultspace.numeric.count.healthy_model import healthy_reference
-from faultspace.numeric.count.rank_gap import fault_dimension
-from faultspace.numeric.model.past_inputs import pi_moesp
-from faultspace.numeric.model.residuals import residual
+from faultspace.numeric.method.model.past_inputs import pi_moesp
+from faultspace.numeric.method.model.residuals import residual
+from faultspace.numeric.method.ranks.rank_gap import fault_dimension
+from faultspace.numeric.plant.healthy.against_healthy import fault_dimension_against_healthy
+from faultspace.numeric.plant.healthy.healthy_model import healthy_reference
 
 Array = NDArray[np.float64]
 

@@ -24,14 +24,14 @@ from unittest.mock import patch
 import numpy as np
 from numpy.typing import NDArray
 
-from faultspace.numeric.count.windows import hankel_factor
-from faultspace.numeric.model.models import StateSpaceModel
-from faultspace.numeric.space import by_likelihood as noisy_fault_space
-from faultspace.numeric.space.by_ranks import fault_space, fault_space_by_least_squares, fault_space_by_likelihood
-from faultspace.numeric.space.distances import principal_angles
-from faultspace.numeric.space.result import FaultSpaceEstimate, kernel_conditions
+from faultspace.numeric.method.model.models import StateSpaceModel
+from faultspace.numeric.method.ranks.sample_windows import hankel_factor
+from faultspace.numeric.method.space import by_likelihood as noisy_fault_space
+from faultspace.numeric.method.space.by_ranks import fault_space, fault_space_by_least_squares, fault_space_by_likelihood
+from faultspace.numeric.method.space.distances import principal_angles
+from faultspace.numeric.method.space.estimate import FaultSpaceEstimate, kernel_conditions
+from faultspace.numeric.study.random_systems import study_system
 from faultspace.numeric.study.runs import coloured_noise, study_faults
-from faultspace.numeric.study.systems import study_system
 
 Array = NDArray[np.float64]
 

@@ -22,7 +22,7 @@ from pathlib import Path
 from benchmarks.identification_data import Setting, errors
 from faultspace.base.errors import InvalidData
 from faultspace.base.processes import Limits, kill_session, session
-from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.method.model.models import StateSpaceModel
 
 ROOT = Path(__file__).resolve().parents[1]
 RESULT = "RESULT "

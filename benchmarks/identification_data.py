@@ -18,7 +18,7 @@ import scipy.signal
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.method.model.models import StateSpaceModel
 
 Array = NDArray[np.float64]
 

@@ -79,7 +79,7 @@ class Method:
 
 
 def _pi_moesp(y: Array, u: Array, setting: Setting) -> Call:
-    from faultspace.numeric.model.past_inputs import pi_moesp
+    from faultspace.numeric.method.model.past_inputs import pi_moesp
 
     def call() -> Matrices:
         found = pi_moesp(y, u, order=ORDER, block_rows=setting.block_rows)
@@ -89,8 +89,8 @@ def _pi_moesp(y: Array, u: Array, setting: Setting) -> Call:
 
 
 def _from_compression(y: Array, u: Array, setting: Setting) -> Call:
-    from faultspace.numeric.model.compression import compress
-    from faultspace.numeric.model.past_inputs import pi_moesp_from_compression
+    from faultspace.numeric.method.model.compression import compress
+    from faultspace.numeric.method.model.past_inputs import pi_moesp_from_compression
 
     def call() -> Matrices:
         found = pi_moesp_from_compression(compress(y, u, block_rows=setting.block_rows), order=ORDER)
@@ -101,7 +101,7 @@ def _from_compression(y: Array, u: Array, setting: Setting) -> Call:
 
 def _compression(route: str) -> Preparation:
     def prepared(y: Array, u: Array, setting: Setting) -> Call:
-        from faultspace.numeric.model.compression import compress
+        from faultspace.numeric.method.model.compression import compress
 
         def call() -> None:
             compress(y, u, block_rows=setting.block_rows, route=route)

@@ -10,9 +10,9 @@ signal there, of the sizes that the answer to the first says are seen with a cha
     constant, white           share of the faults of the stated size that are found
 
 With --inputs the records have no fault, and inputs that are so many times as loud after the healthy samples, or so many deviations away:
-how often is a fault found where no answer is left undecided for their sake? LOUDER of `numeric/count/unlike_healthy.py` stands for the
-largest that was tried at which no more alarms are false than where the inputs stay as they were, by a sign test. An input that has moved
-counts by its power about the healthy mean, and so many deviations by themselves are printed beside.
+how often is a fault found where no answer is left undecided for their sake? LOUDER of `numeric/plant/healthy/unlike_healthy.py` stands for
+the largest that was tried at which no more alarms are false than where the inputs stay as they were, by a sign test. An input that has
+moved counts by its power about the healthy mean, and so many deviations by themselves are printed beside.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ import scipy.special
 from numpy.typing import NDArray
 from scipy.signal import lfilter
 
-from faultspace.numeric.count import unlike_healthy
 from faultspace.numeric.data.records import recorded
-from faultspace.numeric.model.models import StateSpaceModel
-from faultspace.numeric.pipeline import identify
+from faultspace.numeric.method.model.models import StateSpaceModel
+from faultspace.numeric.plant.healthy import unlike_healthy
+from faultspace.numeric.plant.pipeline import identify
 
 Array = NDArray[np.float64]
 

@@ -34,9 +34,9 @@ from benchmarks.sheets import Sheet, markdown
 from faultspace.base.progress import evenly, working
 from faultspace.exact.limits.experiments import Experiment
 from faultspace.exact.limits.moesp import PopulationLimits, limit
-from faultspace.numeric.model.displacement_gram import DisplacementGram
-from faultspace.numeric.model.past_inputs import pi_moesp
-from faultspace.numeric.model.past_outputs import po_moesp
+from faultspace.numeric.method.model.displacement_gram import DisplacementGram
+from faultspace.numeric.method.model.past_inputs import pi_moesp
+from faultspace.numeric.method.model.past_outputs import po_moesp
 from faultspace.proofs.evidence.experiments import FAMILIES
 from tests.numeric.predicted_limits import floats, invariants, simulated
 

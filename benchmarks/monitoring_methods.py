@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from faultspace.numeric.model.models import StateSpaceModel, observability_matrix
+from faultspace.numeric.method.model.models import StateSpaceModel, observability_matrix
 
 Array = NDArray[np.float64]
 

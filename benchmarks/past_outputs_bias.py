@@ -42,9 +42,9 @@ from faultspace.exact.limits.experiments import Experiment, read_experiment
 from faultspace.exact.limits.inputs import by_output_error
 from faultspace.exact.limits.moesp import PopulationLimits, limit, markov_parameters
 from faultspace.exact.limits.moments import covariances
-from faultspace.numeric.model.models import StateSpaceModel
-from faultspace.numeric.model.past_inputs import pi_moesp
-from faultspace.numeric.model.past_outputs import po_moesp
+from faultspace.numeric.method.model.models import StateSpaceModel
+from faultspace.numeric.method.model.past_inputs import pi_moesp
+from faultspace.numeric.method.model.past_outputs import po_moesp
 from tests.numeric.predicted_limits import floats
 
 # Inputs, outputs, block rows, sensor noise: the benchmark's four cells.

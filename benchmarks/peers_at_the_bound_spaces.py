@@ -25,10 +25,10 @@ from faultspace.numeric import FaultSpectra, arx_reduction, fault_space, fault_s
 from faultspace.numeric.audit import peers
 from faultspace.numeric.audit.records import Broken, Refused
 from faultspace.numeric.audit.subjects.subprocess_adapter import Exec
-from faultspace.numeric.model.models import StateSpaceModel, observability_matrix
-from faultspace.numeric.model.toeplitz_factorisation import toeplitz_factorisation
-from faultspace.numeric.space.distances import two_sided_error
-from faultspace.numeric.space.result import orthonormal
+from faultspace.numeric.method.model.models import StateSpaceModel, observability_matrix
+from faultspace.numeric.method.space.distances import two_sided_error
+from faultspace.numeric.method.space.estimate import orthonormal
+from faultspace.numeric.study.toeplitz_factorisation import toeplitz_factorisation
 
 Found = tuple[Array, Array, Array]
 Way = Callable[[Trial, int], Found]

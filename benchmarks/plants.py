@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from benchmarks.peers_at_the_bound_tools import IDENTIFY, OURS, PAPER
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import arx_reduction, residual
-from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.method.model.models import StateSpaceModel
 
 Array = NDArray[np.float64]
 

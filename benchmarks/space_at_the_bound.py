@@ -17,9 +17,9 @@ found counts, decided or not. A row a cell and N:
                 "small": of those where the stated angle is below SMALL
     angle       what is stated, in radians, and over the true error: medians; an angle normal in one direction has 2.9 on the right
 
-`--calibrate` prints how often the angle holds, and its median, with fewer random starts than STARTS of `numeric/model/valleys.py`, and
-with more; and what WIDENED of `numeric/rows/space.py` is set by: quantiles of the tangent of the angle over that of the stated one, not
-widened, in records where the estimate's own valley has a probability of ALONE.
+`--calibrate` prints how often the angle holds, and its median, with fewer random starts than STARTS of `numeric/method/model/valleys.py`,
+and with more; and what WIDENED of `numeric/method/rows/space_by_rows.py` is set by: quantiles of the tangent of the angle over that of the
+stated one, not widened, in records where the estimate's own valley has a probability of ALONE.
 
 With --cases every record is kept in FILE, and a run that was stopped goes on where it was (`kept_cases.py`); records come in rounds of one
 a cell, so that all cells have as many wherever it ends. --table measures nothing and shows what FILE has. --identified leaves the true
@@ -55,11 +55,11 @@ from faultspace.numeric import (
     fault_space_by_rows,
     identified_fault_space,
 )
-from faultspace.numeric.model import valleys
-from faultspace.numeric.model.models import observability_matrix
-from faultspace.numeric.rows import space as rows_space
-from faultspace.numeric.space.distances import principal_angles, two_sided_error
-from faultspace.numeric.space.result import orthonormal
+from faultspace.numeric.method.model import valleys
+from faultspace.numeric.method.model.models import observability_matrix
+from faultspace.numeric.method.rows import space_by_rows as rows_space
+from faultspace.numeric.method.space.distances import principal_angles, two_sided_error
+from faultspace.numeric.method.space.estimate import orthonormal
 
 Array = NDArray[np.float64]
 T = TypeVar("T")

@@ -23,11 +23,11 @@ from at_the_bound_cells import BANDWIDTH, NOISE, NULL, SETTLING, input_signal, s
 from numpy.typing import NDArray
 
 from faultspace.numeric import FaultSpectra, StateSpaceModel
-from faultspace.numeric.bound.space_information import kernel_rows
-from faultspace.numeric.bound.spectra import Spectrum, filtered, white
-from faultspace.numeric.space.result import kernel_conditions
+from faultspace.numeric.method.space.estimate import kernel_conditions
+from faultspace.numeric.study.bound.driving_spectra import Spectrum, filtered, white
+from faultspace.numeric.study.bound.space_information import kernel_rows
+from faultspace.numeric.study.random_systems import study_system
 from faultspace.numeric.study.runs import LOW_PASS, NOISE_GAIN, coloured_noise, response, study_faults
-from faultspace.numeric.study.systems import study_system
 
 Array = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ from .exact.structure.record import analyze as analyze
 from .exact.system.systems import System as System
 from .numeric.audit.running import audit as audit
 from .numeric.data.files import read_record as read_record
-from .numeric.monitor.monitoring import Monitor as Monitor
-from .numeric.pipeline import identify as identify
+from .numeric.plant.monitor.monitoring import Monitor as Monitor
+from .numeric.plant.pipeline import identify as identify
 from .numeric.study.studies import monte_carlo as monte_carlo
 from .proofs.brought.claiming import claim as claim
 from .proofs.brought.conjecturing import conjecture as conjecture

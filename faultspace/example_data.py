@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .numeric.model.models import StateSpaceModel
+from .numeric.method.model.models import StateSpaceModel
 
 Array = NDArray[np.float64]
 

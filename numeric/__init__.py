@@ -26,22 +26,13 @@ fault_space_by_rows   all fault columns, from the laws that outputs and inputs o
 
 Monitor               a model against a stream of samples: alarms at a stated rate of false ones
 
-The folders:
+The folders, each of which imports those below it only:
 
-data          records, readers, checks of what comes in
-model         compression, PI-MOESP, PO-MOESP, ARX and its reduction, B and D, the residual
-doubt         what a record gives reason to doubt
-count         the number of faults: rank gaps, kernel rows, against a healthy record
-changes       what has changed since a healthy part: one table of tests
-space         the fault space, by ranks or by likelihood, with its uncertainty
-rows          the kernel rows of outputs and inputs: number of faults and fault space without a residual
-bound         the Cramer-Rao bounds of the model and of the fault space
-signal        reconstruction, the zeros that limit it, plots
-monitor       a model against a stream
-rounding      how far rounding may carry the answers
-report        what the command writes and says
-study         the paper's example and its Monte Carlo study
 audit         anyone's implementation against exact ground truth; the one folder that imports the exact branch too
+study         the paper's example and its Monte Carlo study; the Cramer-Rao bounds, and how far rounding may carry the answers
+plant         what a plant's record needs: the steps of identify, samples without fault, changes, doubts, a monitor, what is told
+method        arrays in, records out: model, ranks of a residual, rows of outputs and inputs, fault space, fault signal
+data          records, readers, checks of what comes in
 
 Arrays are time-major, y before u. The room imports numpy and scipy and never `faultspace.exact`, so that the exact results can judge it. A
 name is loaded when it is first asked for; `__init__.pyi` lists them with their modules.

@@ -28,7 +28,7 @@ from .stability import is_schur, is_stable
 
 @dataclass(frozen=True, eq=False)
 class RealField(NumberField):
-    """This is Q(a) as NumberField, a being the one real root of the polynomial between the rationals `lower` and `upper`.
+    """Q(a) as NumberField, a being the one real root of the polynomial between the rationals `lower` and `upper`.
 
     Two of them are equal where polynomial and bounds are, and none equals the field without a root. Files hold the polynomial alone.
 
@@ -47,7 +47,7 @@ class RealField(NumberField):
 
     @property
     def without_root(self) -> NumberField:
-        """This is the field in which no root is chosen."""
+        """The field in which no root is chosen."""
         return NumberField(self.minimal_polynomial)
 
     def roots_between(self, lower: Fraction, upper: Fraction) -> int:
@@ -112,7 +112,10 @@ def _between(f: fmpq_poly, lower: fmpq, upper: fmpq) -> tuple[fmpq, fmpq]:
 
 
 def one_modulus(field: Field) -> bool:
-    """Whether what lies inside the unit circle has one answer: over Q, with a chosen root, in degree 1, where the roots are conjugate."""
+    """Return whether "inside the unit circle" has one meaning for an element.
+
+    It has over Q, with a chosen root, in degree 1, and where the roots are conjugate.
+    """
     if isinstance(field, PrimeField):
         return False
     if isinstance(field, RealField) or field.degree == 1:
@@ -121,7 +124,7 @@ def one_modulus(field: Field) -> bool:
 
 
 def inside_the_circle(coefficients: Sequence[Any], field: Field) -> bool:
-    """Whether all complex roots of sum coefficients[k] q^k, elements of the field, have modulus below 1, at the chosen embedding.
+    """Return whether all complex roots of sum coefficients[k] q^k, elements of the field, have modulus below 1, at the chosen embedding.
 
     Raises InvalidInput for the zero polynomial, and where no embedding is chosen and they differ.
     """
@@ -165,8 +168,9 @@ def _times_conjugate(values: list[AlgebraicNumber], field: NumberField) -> list[
 
 
 def stable_there(A: Matrix) -> bool:
-    """Whether all eigenvalues of A (n x n, over Q or Q(a)) lie inside the unit circle at the chosen embedding. Raises InvalidInput where
-    none is chosen and they differ, over GF(p), and for what is no square matrix.
+    """Return whether all eigenvalues of A (n x n, over Q or Q(a)) lie inside the unit circle at the chosen embedding.
+
+    Raises InvalidInput where none is chosen and they differ, over GF(p), and for what is no square matrix.
     """
     if not isinstance(A.field, NumberField):
         return is_stable(A)

@@ -90,7 +90,7 @@ def _of_domain_matrix(entries: DomainMatrix, field: Field, where: str) -> list[l
 
 
 def _coordinates(element: Any, domain: AlgebraicField) -> list[Fraction]:
-    """These are the rational coordinates, ascending, of an element of sympy's QQ<a>."""
+    """Return the rational coordinates, ascending, of an element of sympy's QQ<a>."""
     descending = [Fraction(int(c.numerator), int(c.denominator)) for c in element.to_list()]
     size = int(domain.mod.degree())
     return descending[::-1] + [Fraction(0)] * (size - len(descending))

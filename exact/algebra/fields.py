@@ -30,7 +30,7 @@ from .writing import sum_of_powers
 
 
 def _as_rational(value: object, where: str) -> fmpq:
-    """The result is the fmpq of an int, rational string, Fraction, sympy rational, fmpz or fmpq. Raises InvalidInput for the rest, floats
+    """Return the fmpq of an int, rational string, Fraction, sympy rational, fmpz or fmpq. Raises InvalidInput for the rest, floats
     included.
     """
     if isinstance(value, fmpq):
@@ -46,7 +46,7 @@ def _as_rational(value: object, where: str) -> fmpq:
 
 @dataclass(frozen=True)
 class Rationals:
-    """This is the field Q of the rational numbers, whose elements are of type flint.fmpq.
+    """The field Q of the rational numbers, whose elements are of type flint.fmpq.
 
     `Rationals()` has no arguments, and all of them are equal. Its `element` takes integers, rational strings such as "-3/4", Fractions and
     sympy rationals, and `write` gives the reduced string that exact files hold.
@@ -63,25 +63,25 @@ class Rationals:
     characteristic: ClassVar[int] = 0
 
     def element(self, value: object, where: str = "entry") -> Any:
-        """The result is the element that `value` stands for (int, rational string, Fraction, sympy Rational, fmpq). Raises InvalidInput."""
+        """Return the element that `value` stands for (int, rational string, Fraction, sympy Rational, fmpq). Raises InvalidInput."""
         return _as_rational(value, where)
 
     def write(self, element: Any) -> str:
-        """The result is the reduced rational string."""
+        """Return the reduced rational string."""
         if type(element) is fmpq and (top := element.p).bit_length() < 60 and (bottom := element.q).bit_length() < 60:
             return str(int(top)) if bottom == 1 else f"{int(top)}/{int(bottom)}"  # as str does below, several times faster
         return str(element)
 
     def block(self, element: Any) -> list[list[Any]]:
-        """The result is [[element]], the 1 x 1 matrix of multiplication by the element."""
+        """Return [[element]], the 1 x 1 matrix of multiplication by the element."""
         return [[element]]
 
     def from_coordinates(self, coordinates: Sequence[Any]) -> Any:
-        """The result is the element with these coordinates, of which there is one."""
+        """Return the element with these coordinates, of which there is one."""
         return coordinates[0]
 
     def to_json(self) -> object:
-        """The result is the `field` value of an exact file."""
+        """Return the `field` value of an exact file."""
         return "Q"
 
     def __str__(self) -> str:
@@ -90,7 +90,7 @@ class Rationals:
 
 @dataclass(frozen=True)
 class PrimeField:
-    """This is the field GF(p) of the integers modulo a prime p below 2^64, whose elements are of type flint.nmod.
+    """The field GF(p) of the integers modulo a prime p below 2^64, whose elements are of type flint.nmod.
 
     `element` takes integers and integer strings, and no fractions; `write` gives the residue in 0..p-1 as a string.
 
@@ -118,7 +118,7 @@ class PrimeField:
         return self.p
 
     def element(self, value: object, where: str = "entry") -> Any:
-        """The result is the residue of an int or integer string. Raises InvalidInput for anything else, fractions included."""
+        """Return the residue of an int or integer string. Raises InvalidInput for anything else, fractions included."""
         if isinstance(value, nmod):
             if value.modulus() != self.p:
                 raise InvalidInput(f"{where}: got an element of GF({value.modulus()}), expected one of GF({self.p})")
@@ -129,19 +129,19 @@ class PrimeField:
         return nmod(int(number.p % self.p), self.p)
 
     def write(self, element: Any) -> str:
-        """The result is the residue in 0..p-1 as a string."""
+        """Return the residue in 0..p-1 as a string."""
         return str(int(element))
 
     def block(self, element: Any) -> list[list[Any]]:
-        """The result is [[element]], the 1 x 1 matrix of multiplication by the element."""
+        """Return [[element]], the 1 x 1 matrix of multiplication by the element."""
         return [[element]]
 
     def from_coordinates(self, coordinates: Sequence[Any]) -> Any:
-        """The result is the element with these coordinates, of which there is one."""
+        """Return the element with these coordinates, of which there is one."""
         return coordinates[0]
 
     def to_json(self) -> object:
-        """The result is the `field` value of an exact file."""
+        """Return the `field` value of an exact file."""
         return {"prime": self.p}
 
     def __str__(self) -> str:
@@ -150,7 +150,7 @@ class PrimeField:
 
 @dataclass(frozen=True, eq=False)
 class NumberField:
-    """This is the field Q(a) for a root a of an irreducible polynomial over Q, given by its ascending coefficients, monic or not.
+    """The field Q(a) for a root a of an irreducible polynomial over Q, given by its ascending coefficients, monic or not.
 
     An element is a rational polynomial in a of degree below d, the degree of the polynomial, which is at most 16; `element` takes a
     rational or a list of its d coordinates, ascending in a. No root is chosen: what is true over Q(a) is true for every root. Two
@@ -200,12 +200,12 @@ class NumberField:
 
     @cached_property
     def modulus(self) -> fmpq_poly:
-        """This is the minimal polynomial as given."""
+        """The minimal polynomial as given."""
         return fmpq_poly([fmpq(c.numerator, c.denominator) for c in self.minimal_polynomial])
 
     @cached_property
     def integer_polynomial(self) -> fmpz_poly:
-        """This is the minimal polynomial times the common denominator of its coefficients."""
+        """The minimal polynomial times the common denominator of its coefficients."""
         scaled = self.modulus * self.modulus.denom()
         return fmpz_poly([c.p for c in scaled.coeffs()])
 
@@ -215,7 +215,7 @@ class NumberField:
         return [x**i for i in range(self.degree)]
 
     def element(self, value: object, where: str = "entry") -> Any:
-        """The result is the element that a rational or a list of d rationals (ascending in a) stands for. Raises InvalidInput."""
+        """Return the element that a rational or a list of d rationals (ascending in a) stands for. Raises InvalidInput."""
         if isinstance(value, AlgebraicNumber) and value.field == self:
             return value
         if isinstance(value, (list, tuple)):
@@ -229,18 +229,18 @@ class NumberField:
             raise InvalidInput(f"{error}, or a list of its {self.degree} coordinates, ascending in a: a itself is {unit}") from None
 
     def write(self, element: Any) -> object:
-        """The result is a rational string where the element is rational, else the list of its d coordinates."""
+        """Return a rational string where the element is rational, else the list of its d coordinates."""
         coordinates = self.coordinates(element)
         if all(c == 0 for c in coordinates[1:]):
             return str(coordinates[0])
         return [str(c) for c in coordinates]
 
     def coordinates(self, element: Any) -> list[fmpq]:
-        """These are the d rational coordinates of an element, ascending in a."""
+        """Return the d rational coordinates of an element, ascending in a."""
         return [element.poly[i] for i in range(self.degree)]
 
     def block(self, element: Any) -> list[list[Any]]:
-        """The result is the d x d matrix of multiplication by the element: row i holds the coordinates of a^i times it."""
+        """Return the d x d matrix of multiplication by the element: row i holds the coordinates of a^i times it."""
         if element.poly.degree() <= 0:
             c = element.poly[0]
             return [[c if i == j else fmpq(0) for j in range(self.degree)] for i in range(self.degree)]
@@ -248,11 +248,11 @@ class NumberField:
         return [[row[j] for j in range(self.degree)] for row in rows]
 
     def from_coordinates(self, coordinates: Sequence[Any]) -> Any:
-        """The result is the element with these d coordinates."""
+        """Return the element with these d coordinates."""
         return AlgebraicNumber(self, fmpq_poly(list(coordinates)))
 
     def to_json(self) -> object:
-        """The result is the `field` value of an exact file."""
+        """Return the `field` value of an exact file."""
         return {"minimal_polynomial": [str(fmpq(c.numerator, c.denominator)) for c in self.minimal_polynomial]}
 
     def __str__(self) -> str:
@@ -261,7 +261,7 @@ class NumberField:
 
 @dataclass(frozen=True, eq=False)
 class AlgebraicNumber:
-    """This is an element of a NumberField: a rational polynomial in a of degree below d. The field operations are operators."""
+    """An element of a NumberField: a rational polynomial in a of degree below d. The field operations are operators."""
 
     field: NumberField
     poly: fmpq_poly
@@ -313,7 +313,7 @@ QQ = Rationals()
 
 
 def field_from_json(value: object) -> Field:
-    """The result is the field that the `field` value of an exact file names: "Q", a dict with "prime" or one with "minimal_polynomial".
+    """Return the field that the `field` value of an exact file names: "Q", a dict with "prime" or one with "minimal_polynomial".
 
     The minimal polynomial is a list of rational strings or integers by ascending power. Each field's `to_json` writes what this reads.
 
@@ -333,12 +333,12 @@ def field_from_json(value: object) -> Field:
 
 
 def base_matrix(field: Field, rows: int, cols: int, scalars: list[Any]) -> Any:
-    """The result is the flint matrix of this shape over the base field (Q for number fields)."""
+    """Return the flint matrix of this shape over the base field (Q for number fields)."""
     if isinstance(field, PrimeField):
         return flint.nmod_mat(rows, cols, scalars, field.p)
     return flint.fmpq_mat(rows, cols, scalars)
 
 
 def base_zero(field: Field, rows: int, cols: int) -> Any:
-    """The result is the flint matrix of zeros over the base field."""
+    """Return the flint matrix of zeros over the base field."""
     return flint.nmod_mat(rows, cols, field.p) if isinstance(field, PrimeField) else flint.fmpq_mat(rows, cols)

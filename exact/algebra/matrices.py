@@ -34,7 +34,7 @@ PRIME = 2**61 - 1
 
 @dataclass(frozen=True, eq=False, init=False)
 class Matrix:
-    """This is an immutable matrix of shape nrows x ncols over one of the three kinds of field; a dimension may be zero.
+    """An immutable matrix of shape nrows x ncols over one of the three kinds of field; a dimension may be zero.
 
     `Matrix.of` makes one from nested lists, sympy matrices and so on, `Matrix.zero` and `Matrix.identity` make those two. `+`, `-` and `@`
     stay within one field, `matrix[i, j]` is a field element, `rows` and `columns` choose, `to_json` and `to_sympy` write. Two matrices are
@@ -88,7 +88,7 @@ class Matrix:
 
     @staticmethod
     def from_elements(field: Field, nrows: int, ncols: int, rows: Sequence[Sequence[Any]]) -> Matrix:
-        """The result is a matrix from rows of field elements, unchecked."""
+        """Return a matrix from rows of field elements, unchecked."""
         d = field.degree
         if d == 1 and not isinstance(field, NumberField):
             return Matrix(field, nrows, ncols, base_matrix(field, nrows, ncols, [x for row in rows for x in row]))
@@ -102,14 +102,14 @@ class Matrix:
 
     @staticmethod
     def zero(field: Field, nrows: int, ncols: int) -> Matrix:
-        """The result is the zero matrix. Raises InvalidInput for sizes that are no integers >= 0, or too large for any memory."""
+        """Return the zero matrix. Raises InvalidInput for sizes that are no integers >= 0, or too large for any memory."""
         fits(natural(nrows, "nrows"), natural(ncols, "ncols"), "matrix")
         d = field.degree
         return Matrix(field, nrows, ncols, base_zero(field, nrows * d, ncols * d))
 
     @staticmethod
     def identity(field: Field, size: int) -> Matrix:
-        """The result is the identity matrix. Raises InvalidInput for a size that is no integer >= 0, or too large for any memory."""
+        """Return the identity matrix. Raises InvalidInput for a size that is no integer >= 0, or too large for any memory."""
         fits(natural(size, "size"), size, "matrix")
         k = size * field.degree
         unit = base_zero(field, k, k)
@@ -125,7 +125,7 @@ class Matrix:
         return (self.nrows, self.ncols)
 
     def __getitem__(self, index: tuple[int, int]) -> Any:
-        """The result is the field element in row i, column j (non-negative indices)."""
+        """Return the field element in row i, column j (non-negative indices)."""
         i, j = index
         d = self.field.degree
         if not isinstance(self.field, NumberField):
@@ -153,7 +153,7 @@ class Matrix:
         return [[self.field.write(x) for x in row] for row in self.elements()]
 
     def to_sympy(self) -> sympy.ImmutableMatrix:
-        """The result is the sympy matrix: Rational entries over Q, integers over GF(p), polynomials in the symbol a over Q(a)."""
+        """Return the sympy matrix: Rational entries over Q, integers over GF(p), polynomials in the symbol a over Q(a)."""
         import sympy  # here, where it is needed
 
         a = sympy.Symbol("a")
@@ -207,7 +207,7 @@ class Matrix:
         return Matrix(self.field, self.nrows, self.ncols, self.flint + other.flint)
 
     def _mixes_with(self, other: object) -> Matrix:
-        """The result is the other operand as a Matrix over the same field; nested lists become one."""
+        """Return the other operand as a Matrix over the same field; nested lists become one."""
         other = as_matrix(other, "the other matrix", self.field)
         if self.field is not other.field and self.field != other.field:
             raise InvalidInput(
@@ -229,21 +229,21 @@ class Matrix:
         return Matrix(self.field, self.nrows, self.ncols, -self.flint)
 
     def transposed(self) -> Matrix:
-        """The result is the transpose, entry by entry (for number fields not the transpose of the block matrix)."""
+        """Return the transpose, entry by entry (for number fields not the transpose of the block matrix)."""
         if not isinstance(self.field, NumberField):
             return Matrix(self.field, self.ncols, self.nrows, self.flint.transpose())
         rows = self.elements()
         return Matrix.from_elements(self.field, self.ncols, self.nrows, [[row[j] for row in rows] for j in range(self.ncols)])
 
     def rows(self, indices: Iterable[int]) -> Matrix:
-        """The result is the matrix of these rows, in this order."""
+        """Return the matrix of these rows, in this order."""
         d = self.field.degree
         chosen, width = [i * d + c for i in indices for c in range(d)], self.ncols * d
         scalars = [self.flint[i, j] for i in chosen for j in range(width)]  # not the whole table, which may be long
         return Matrix(self.field, len(chosen) // d, self.ncols, base_matrix(self.field, len(chosen), width, scalars))
 
     def columns(self, indices: Iterable[int]) -> Matrix:
-        """The result is the matrix of these columns, in this order."""
+        """Return the matrix of these columns, in this order."""
         d = self.field.degree
         wanted = [j * d + c for j in indices for c in range(d)]
         scalars = [self.flint[i, j] for i in range(self.nrows * d) for j in wanted]
@@ -252,19 +252,19 @@ class Matrix:
 
 @dataclass(frozen=True)
 class RowEchelon:
-    """These are the nonzero rows of a reduced row echelon form, and the column of the leading 1 of each."""
+    """The nonzero rows of a reduced row echelon form, and the column of the leading 1 of each."""
 
     matrix: Matrix
     pivots: tuple[int, ...]
 
 
 def as_matrix(given: object, where: str = "matrix", field: Field = QQ) -> Matrix:
-    """The result is the Matrix that is given, over whatever field it is, or what `Matrix.of` makes of nested lists. Raises InvalidInput."""
+    """Return the Matrix that is given, over whatever field it is, or what `Matrix.of` makes of nested lists. Raises InvalidInput."""
     return given if isinstance(given, Matrix) else Matrix.of(given, field, where=where)
 
 
 def beside(*parts: Matrix) -> Matrix:
-    """The result is [X Y ...]: matrices with the same number of rows, side by side."""
+    """Return [X Y ...]: matrices with the same number of rows, side by side."""
     first = parts[0]
     ncols = sum(part.ncols for part in parts)
     tables = [part.flint.tolist() for part in parts]
@@ -274,7 +274,7 @@ def beside(*parts: Matrix) -> Matrix:
 
 
 def stacked(*parts: Matrix) -> Matrix:
-    """The result is [X; Y; ...]: matrices with the same number of columns, one above the other."""
+    """Return [X; Y; ...]: matrices with the same number of columns, one above the other."""
     first = parts[0]
     nrows = sum(part.nrows for part in parts)
     scalars = [x for part in parts for x in part.flint.entries()]
@@ -283,7 +283,7 @@ def stacked(*parts: Matrix) -> Matrix:
 
 
 def rank(matrix: Matrix) -> int:
-    """The result is the rank of an nrows x ncols matrix over its field.
+    """Return the rank of an nrows x ncols matrix over its field.
 
     A large matrix is looked at modulo a prime first: a minor that is not zero there is not zero, so that full rank there is full rank.
     Nested lists are taken over Q. Raises nothing for a Matrix of any shape, and InvalidInput for what is no matrix; the rank of an empty
@@ -303,7 +303,7 @@ def rank(matrix: Matrix) -> int:
 
 
 def row_echelon(matrix: Matrix) -> RowEchelon:
-    """The result is the reduced row echelon form of an nrows x ncols matrix, without its zero rows, and its `pivots`.
+    """Return the reduced row echelon form of an nrows x ncols matrix, without its zero rows, and its `pivots`.
 
     `matrix` holds the form and `pivots` its leading columns. Two matrices have the same row space iff their forms are equal. Over Q a large
     form comes from p-adic lifting [D82] and is checked exactly; over Q(a) it is the form of the block matrix, read in blocks. Nested
@@ -326,7 +326,7 @@ def row_echelon(matrix: Matrix) -> RowEchelon:
 
 
 def pivot_columns(echelon: Any) -> list[int]:
-    """The result is the column of the leading entry of every row of a row echelon form, which may end in zero rows."""
+    """Return the column of the leading entry of every row of a row echelon form, which may end in zero rows."""
     pivots: list[int] = []
     start = 0
     for row in echelon.tolist():
@@ -343,7 +343,7 @@ def _is_large(matrix: Matrix) -> bool:
 
 
 def _modulo(rational: Any) -> Any:
-    """The result is the matrix modulo a prime after clearing denominators row by row: its rank is a lower bound."""
+    """Return the matrix modulo a prime after clearing denominators row by row: its rank is a lower bound."""
     rows: list[int] = []
     for row in rational.tolist():
         bottom = fmpz(1)
@@ -354,7 +354,7 @@ def _modulo(rational: Any) -> Any:
 
 
 def _lifted_echelon(rational: Any) -> Any:
-    """The result is the reduced row echelon form, by p-adic lifting on the shape found modulo a prime; None where that prime misleads.
+    """Return the reduced row echelon form, by p-adic lifting on the shape found modulo a prime; None where that prime misleads.
 
     The rows and columns of a nonzero minor of greatest size modulo the prime make a square B; the form is B^-1 times those rows, if the
     other rows are combinations of them: checked exactly.
@@ -420,17 +420,17 @@ def left_null_space(matrix: Matrix) -> Matrix:
 
 
 def column_basis(matrix: Matrix) -> Matrix:
-    """The result is a basis of the column space as columns, in reduced column echelon form: equal spaces give equal matrices."""
+    """Return a basis of the column space as columns, in reduced column echelon form: equal spaces give equal matrices."""
     return row_echelon(matrix.transposed()).matrix.transposed()
 
 
 def row_profile(matrix: Matrix) -> tuple[int, ...]:
-    """These are the rows that are not combinations of the rows above them (the row rank profile)."""
+    """Return the rows that are not combinations of the rows above them (the row rank profile)."""
     return row_echelon(matrix.transposed()).pivots
 
 
 def solve_left(matrix: Matrix, right_side: Matrix) -> Matrix | None:
-    """The result is the X with X M = R that has zeros at the rows of M that depend on those above; None where R has a row outside the row
+    """Return the X with X M = R that has zeros at the rows of M that depend on those above; None where R has a row outside the row
     space of M.
     """
     height = matrix.nrows

@@ -22,19 +22,19 @@ MOST_ROWS, MOST_COLUMNS, MOST_NUMBERS = 24, 12, 24
 
 
 def entry(element: Any, field: Field) -> str:
-    """The result is a field element: p/q, or a polynomial in a over Q(a)."""
+    """Return a field element: p/q, or a polynomial in a over Q(a)."""
     if isinstance(field, NumberField):
         return _cut(sum_of_powers([str(c) for c in field.coordinates(element)], "a"))
     return _cut(str(field.write(element)))
 
 
 def polynomial(coefficients: Sequence[Any], field: Field, unknown: str = "q") -> str:
-    """The result is the polynomial with these ascending coefficients, highest power first."""
+    """Return the polynomial with these ascending coefficients, highest power first."""
     return sum_of_powers([entry(c, field) for c in coefficients], unknown)
 
 
 def field_words(field: Field) -> str:
-    """The result is the field as people name it, a number field by the polynomial whose root it adjoins."""
+    """Return the field as people name it, a number field by the polynomial whose root it adjoins."""
     if isinstance(field, NumberField):
         return f"Q(a), where a is a root of {polynomial([QQ.element(c) for c in field.minimal_polynomial], QQ, 'a')}"
     return str(field)

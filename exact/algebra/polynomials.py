@@ -28,12 +28,12 @@ PolyMatrix = list[list[Poly]]
 
 @dataclass(frozen=True)
 class AlgebraicPoly:
-    """This is a polynomial over Q(a) with the operators that FLINT's polynomials have; `ascending` has no trailing zeros."""
+    """A polynomial over Q(a) with the operators that FLINT's polynomials have; `ascending` has no trailing zeros."""
 
     ascending: Poly
 
     def coeffs(self) -> Poly:
-        """These are the coefficients by ascending power."""
+        """Return the coefficients by ascending power."""
         return self.ascending
 
     def degree(self) -> int:
@@ -69,7 +69,7 @@ class AlgebraicPoly:
         return AlgebraicPoly(trimmed(quotient)), AlgebraicPoly(trimmed(rest))
 
     def gcd(self, other: AlgebraicPoly) -> AlgebraicPoly:
-        """The result is the monic greatest common divisor, by Euclid."""
+        """Return the monic greatest common divisor, by Euclid."""
         f, g = self, other
         while g:
             f, g = g, divmod(f, g)[1]
@@ -77,7 +77,7 @@ class AlgebraicPoly:
 
 
 def _packed(f: Poly, one: Any) -> Any:
-    """The result is the polynomial that computes, over the field of the element `one`."""
+    """Return the polynomial that computes, over the field of the element `one`."""
     if isinstance(one, fmpq):
         return fmpq_poly(list(f))
     if isinstance(one, nmod):
@@ -86,7 +86,7 @@ def _packed(f: Poly, one: Any) -> Any:
 
 
 def trimmed(coefficients: Iterable[Any]) -> Poly:
-    """The result is the polynomial with these ascending coefficients."""
+    """Return the polynomial with these ascending coefficients."""
     result = list(coefficients)
     while result and result[-1] == 0:
         result.pop()
@@ -94,26 +94,26 @@ def trimmed(coefficients: Iterable[Any]) -> Poly:
 
 
 def add(f: Poly, g: Poly) -> Poly:
-    """The result is the sum f + g."""
+    """Return the sum f + g."""
     if not f or not g:
         return f or g
     return tuple((_packed(f, f[-1]) + _packed(g, f[-1])).coeffs())
 
 
 def negative(f: Poly) -> Poly:
-    """The result is the polynomial -f."""
+    """Return the polynomial -f."""
     return tuple(-x for x in f)
 
 
 def multiply(f: Poly, g: Poly) -> Poly:
-    """The result is the product f g."""
+    """Return the product f g."""
     if not f or not g:
         return ()
     return tuple((_packed(f, f[-1]) * _packed(g, f[-1])).coeffs())
 
 
 def divide(f: Poly, g: Poly) -> tuple[Poly, Poly]:
-    """The result is the quotient and the remainder of f by g. Raises ZeroDivisionError when g is zero."""
+    """Return the quotient and the remainder of f by g. Raises ZeroDivisionError when g is zero."""
     if not g:
         raise ZeroDivisionError("division by the zero polynomial")
     quotient, remainder = divmod(_packed(f, g[-1]), _packed(g, g[-1]))
@@ -126,14 +126,14 @@ def monic(f: Poly) -> Poly:
 
 
 def gcd(f: Poly, g: Poly) -> Poly:
-    """The result is the monic greatest common divisor."""
+    """Return the monic greatest common divisor."""
     if not f or not g:
         return monic(f or g)
     return tuple(_packed(f, f[-1]).gcd(_packed(g, f[-1])).coeffs())
 
 
 def interpolate(points: Sequence[Any], values: Sequence[Any]) -> Poly:
-    """The result is the polynomial of degree below len(points) with these values, by divided differences."""
+    """Return the polynomial of degree below len(points) with these values, by divided differences."""
     if not points:
         return ()
     differences = list(values)
@@ -148,7 +148,7 @@ def interpolate(points: Sequence[Any], values: Sequence[Any]) -> Poly:
 
 
 def written(f: Poly, field: Field) -> list[object]:
-    """These are the coefficients as the exact file formats write them."""
+    """Return the coefficients as the exact file formats write them."""
     return [field.write(a) for a in f]
 
 

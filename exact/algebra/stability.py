@@ -20,7 +20,7 @@ from .matrices import Matrix, as_matrix
 
 
 def rational_characteristic_polynomial(A: Matrix) -> tuple[Fraction, ...]:
-    """The result is det(qI - A), ascending and monic, for A n x n over Q; over Q(a) its norm, of degree n d. Raises InvalidInput over
+    """Return det(qI - A), ascending and monic, for A n x n over Q; over Q(a) its norm, of degree n d. Raises InvalidInput over
     GF(p).
     """
     if isinstance(A.field, PrimeField):

@@ -31,14 +31,14 @@ _SCIENTIFIC = re.compile(r"-?[0-9]{1,99}(\.[0-9]{0,99})?[eE][+-]?[0-9]{1,2}", re
 
 
 def whole(value: object) -> int | None:
-    """The result is the value as an int where it is an integer, numpy's among them; None for anything else, truth values and floats too."""
+    """Return the value as an int where it is an integer, numpy's among them; None for anything else, truth values and floats too."""
     if type(value) is int:
         return value
     return int(value) if isinstance(value, Integral) and not isinstance(value, bool) else None
 
 
 def natural(value: object, name: str, *, least: int = 0, most: int | None = None) -> int:
-    """The result is the value where it is an integer from `least` to `most`, and no truth value. Raises InvalidInput, naming `name`."""
+    """Return the value where it is an integer from `least` to `most`, and no truth value. Raises InvalidInput, naming `name`."""
     number = whole(value)
     if number is None or number < least or (most is not None and number > most):
         wanted = f">= {least}" if most is None else f"from {least} to {most}"
@@ -47,13 +47,13 @@ def natural(value: object, name: str, *, least: int = 0, most: int | None = None
 
 
 def fits(rows: int, columns: int, name: str) -> None:
-    """Raises InvalidInput for a matrix of more than MAX_ENTRIES entries, before there is one: FLINT ends the process where memory ends."""
+    """Raise InvalidInput for a matrix of more than MAX_ENTRIES entries, before there is one: FLINT ends the process where memory ends."""
     if rows * columns > MAX_ENTRIES:
         raise InvalidInput(f"{name}: got a matrix of {shorten(rows)} x {shorten(columns)}, at most {MAX_ENTRIES} entries are supported")
 
 
 def parse_rational(value: object, where: str) -> fmpq:
-    """The result is the rational that a string or integer stands for; its length is bounded before it is parsed.
+    """Return the rational that a string or integer stands for; its length is bounded before it is parsed.
 
     Raises InvalidInput, naming `where`, for anything else: floats, booleans, exponents, decimal points, a zero denominator.
     """
@@ -78,7 +78,7 @@ def parse_rational(value: object, where: str) -> fmpq:
 
 
 def _hint(value: object) -> str:
-    """What to write instead of a value that is no rational, in brackets; empty where nothing is known of it."""
+    """Return what to write instead of a value that is no rational, in brackets; empty where nothing is known of it."""
     if isinstance(value, bool):
         return " (a truth value is no number: write 1 or 0)"
     if isinstance(value, float):

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 
 def sum_of_powers(coefficients: Sequence[str], unknown: str) -> str:
-    """The result is the sum of the coefficients times powers of the unknown; compound coefficients in brackets."""
+    """Return the sum of the coefficients times powers of the unknown; compound coefficients in brackets."""
     terms: list[tuple[str, str]] = []
     for power, coefficient in reversed(list(enumerate(coefficients))):
         if coefficient == "0":

@@ -48,7 +48,7 @@ from .process import Signal
 
 @dataclass(frozen=True, repr=False)
 class ARXLimit(Shown):
-    """This is the limit of an ARX model of h lags: `outputs` has I, A_1, .., A_h (p x p), `inputs` has B_0, .., B_h (p x nu).
+    """The limit of an ARX model of h lags: `outputs` has I, A_1, .., A_h (p x p), `inputs` has B_0, .., B_h (p x nu).
 
     `innovation` (p x p) is the covariance of e, and `open_loop` tells whether u and the faults are uncorrelated at all lags. `misfit` is
     tr S^-1 Cov((A G - B) u), the power, in units of the innovations, of the errors of prediction that the plant's bias makes; None where
@@ -83,7 +83,7 @@ class ARXLimit(Shown):
         yield "misfit of the plant", "not known" if self.misfit is None else str(self.misfit)
 
     def to_json(self) -> dict[str, Any]:
-        """The result is a JSON-ready dict of exact numbers."""
+        """Return a JSON-ready dict of exact numbers."""
         return {
             "lags": self.lags,
             "open_loop": self.open_loop,
@@ -95,11 +95,11 @@ class ARXLimit(Shown):
 
     @property
     def lags(self) -> int:
-        """The result is the number h of lags."""
+        """The number h of lags."""
         return len(self.outputs) - 1
 
     def markov(self, count: int) -> list[Matrix]:
-        """The result is the first `count` Markov parameters of A^-1 B, p x nu each."""
+        """Return the first `count` Markov parameters of A^-1 B, p x nu each."""
         p, nu = self.inputs[0].shape
         result: list[Matrix] = []
         for k in range(count):

@@ -27,20 +27,20 @@ from .moments import WindowCovariances
 
 @dataclass(frozen=True)
 class StatePart:
-    """This is A (n x n) and C (p x n) with the limit's column space equal to that of C, CA, ..., CA^(s-1); unique up to similarity."""
+    """A (n x n) and C (p x n) with the limit's column space equal to that of C, CA, ..., CA^(s-1); unique up to similarity."""
 
     A: Matrix
     C: Matrix
 
     @property
     def characteristic_polynomial(self) -> tuple[Fraction, ...]:
-        """This is det(qI - A), ascending and monic."""
+        """det(qI - A), ascending and monic."""
         return rational_characteristic_polynomial(self.A)
 
 
 @dataclass(frozen=True)
 class Limit:
-    """This is the limit L (s p x rows of Z) and its projection X (s nu x rows of Z), with the ranks of L, O_s and [O_s L].
+    """The limit L (s p x rows of Z) and its projection X (s nu x rows of Z), with the ranks of L, O_s and [O_s L].
 
     `state` is None where the column space is not shift-invariant of rank n, n the number of states of the system.
     """
@@ -69,12 +69,12 @@ class Limit:
 
 
 def past_input_limit(experiment: Experiment, blocks: WindowCovariances) -> Limit:
-    """The result is what PI-MOESP's projected outputs converge to."""
+    """Return what PI-MOESP's projected outputs converge to."""
     return _limit(experiment, blocks, blocks.yf_up, blocks.uf_up)
 
 
 def past_input_and_output_limit(experiment: Experiment, blocks: WindowCovariances) -> Limit:
-    """The result is what PO-MOESP's projected outputs converge to."""
+    """Return what PO-MOESP's projected outputs converge to."""
     return _limit(experiment, blocks, beside(blocks.yf_up, blocks.yf_yp), beside(blocks.uf_up, blocks.uf_yp))
 
 
@@ -94,13 +94,13 @@ def _limit(experiment: Experiment, blocks: WindowCovariances, outputs: Matrix, i
 
 
 def _modular_rank(matrix: Matrix) -> int:
-    """The result is the rank modulo a prime, 0 where that divides a denominator: a lower bound."""
+    """Return the rank modulo a prime, 0 where that divides a denominator: a lower bound."""
     reduced = reduce_matrix(matrix, LARGEST_PRIME, None)
     return 0 if reduced is None else rank(reduced)
 
 
 def state_part(basis: Matrix, p: int) -> StatePart | None:
-    """The result is A, C from independent columns in block rows of p, or None where their space is not shift-invariant.
+    """Return A, C from independent columns in block rows of p, or None where their space is not shift-invariant.
 
     A space is shift-invariant where dropping the last block row loses no column, and the rows below the first are combinations W+ = W- A.
     """

@@ -30,7 +30,7 @@ _OWN_KEYS = ("s", "past", "u_filter", "v_filter", "w_filter")
 
 @dataclass(frozen=True, repr=False)
 class Experiment(Shown):
-    """This is a system over Q with a stable A and the stationary signals that drive it: what `limit` answers for.
+    """A system over Q with a stable A and the stationary signals that drive it: what `limit` answers for.
 
     `system` is a FaultySystem with n states, m faults, p outputs and nu inputs. `u_filter` (matrices nu x noise over lag), `v_filter` (m x
     noise) and `w_filter` (p x noise, or None) make input, fault and output noise out of white noise; u and v share theirs. `s` >= 1 and
@@ -99,14 +99,14 @@ class Experiment(Shown):
         return f"{self.system.sizes.rpartition(', over ')[0]}; s = {self.s}, past = {self.past}"
 
     def to_json(self) -> dict[str, Any]:
-        """The result is the dict that exact files hold."""
+        """Return the dict that exact files hold."""
         result = self.system.to_json() | {"s": self.s, "past": self.past}
         result |= {"u_filter": self.u_filter.to_json(), "v_filter": self.v_filter.to_json()}
         return result if self.w_filter is None else result | {"w_filter": self.w_filter.to_json()}
 
     @property
     def title(self) -> str:
-        """This is the same as `sizes`."""
+        """The same as `sizes`."""
         return self.sizes
 
     def sheet(self) -> Iterator[tuple[str, str]]:
@@ -118,7 +118,7 @@ class Experiment(Shown):
 
 
 def read_experiment(data: object, *, where: str = "experiment") -> Experiment:
-    """The result is the Experiment that the dict of an exact file holds; `where` is how messages call it.
+    """Return the Experiment that the dict of an exact file holds; `where` is how messages call it.
 
     The dict has "A", "B", "C", "D", "F", "G" and the sizes as in a system's file, the block rows "s" and "past", "u_filter" and "v_filter",
     and "w_filter" where there is output noise; the shapes are those of Experiment.

@@ -48,7 +48,7 @@ class Filter:
 
     @staticmethod
     def of(numerator: object, denominator: object = (1,), *, channels: int | None = None, where: str = "filter") -> Filter:
-        """The result is the filter with these matrices over lag (lists, sympy matrices) and scalars over lag. Raises InvalidInput."""
+        """Return the filter with these matrices over lag (lists, sympy matrices) and scalars over lag. Raises InvalidInput."""
         if not isinstance(numerator, (list, tuple)) or not numerator:
             raise InvalidInput(f"{where}: got {shorten(numerator)}, expected a list of matrices over lag 0, 1, ..., one at least")
         if not isinstance(denominator, (list, tuple)) or not denominator:
@@ -80,12 +80,12 @@ class Filter:
 
     @property
     def channels(self) -> int:
-        """This is the number of rows of each matrix."""
+        """The number of rows of each matrix."""
         return self.numerator[0].nrows
 
     @property
     def noise(self) -> int:
-        """This is the number of columns of each matrix: the dimension of the white noise."""
+        """The number of columns of each matrix: the dimension of the white noise."""
         return self.numerator[0].ncols
 
     @property
@@ -98,13 +98,13 @@ class Filter:
         return all(matrix.is_zero() for matrix in self.numerator)
 
     def to_json(self) -> object:
-        """The result is a list of matrices where the denominator is 1, else {"num", "den"}."""
+        """Return a list of matrices where the denominator is 1, else {"num", "den"}."""
         matrices = [matrix.to_json() for matrix in self.numerator]
         return matrices if len(self.denominator) == 1 else {"num": matrices, "den": [QQ.write(x) for x in self.denominator]}
 
 
 def read_filter(data: object, *, channels: int, where: str) -> Filter:
-    """The result is the Filter of an experiment's file, for a signal of so many channels; `where` is how messages call it.
+    """Return the Filter of an experiment's file, for a signal of so many channels; `where` is how messages call it.
 
     `data` is a list of matrices over lag, each of shape channels x noise, or a dict with "num", such a list, and "den", a list of rationals
     that begins with "1".

@@ -45,7 +45,7 @@ def hides_a_state(experiment: Experiment, known: Covariances) -> bool:
 
 
 def reflections(r: list[Any]) -> list[Any]:
-    """The result is gamma_0, ..., gamma_(d-1) from the covariances r(0), ..., r(d) of a scalar signal, whose Toeplitz matrix is positive
+    """Return gamma_0, ..., gamma_(d-1) from the covariances r(0), ..., r(d) of a scalar signal, whose Toeplitz matrix is positive
     definite.
     """
     past, error, found = [r[0] / r[0]], r[0], []  # past: 1, -a_1, ..., of the best one-step prediction
@@ -63,5 +63,5 @@ def _times(matrix: Matrix, factor: Any) -> Matrix:
 
 
 def _quotient(one: Matrix, other: Matrix) -> Matrix:
-    """The result is one other^-1, of two rational functions of the same matrix."""
+    """Return one other^-1, of two rational functions of the same matrix."""
     return solve(other, one)

@@ -36,7 +36,7 @@ class InputLimit:
 
 
 def by_output_error(known: Covariances, A: Matrix, C: Matrix) -> InputLimit | None:
-    """The result is the minimiser of E|y - G(q)u|^2 for these A (n x n, any order) and C (p x n), or None where A is unstable or it is not
+    """Return the minimiser of E|y - G(q)u|^2 for these A (n x n, any order) and C (p x n), or None where A is unstable or it is not
     unique.
     """
     process = known.process
@@ -69,7 +69,7 @@ def by_output_error(known: Covariances, A: Matrix, C: Matrix) -> InputLimit | No
 
 
 def by_moesp(blocks: WindowCovariances, observability: Matrix, p: int) -> InputLimit | None:
-    """The result is that of MOESP's regression for O_s (s p x n); it is None where B and D are not unique, as for s p <= n.
+    """Return that of MOESP's regression for O_s (s p x n); it is None where B and D are not unique, as for s p <= n.
 
     Block column k of T_s(B, D) is S_k [D; B] with S_k of p + n columns: identity and nothing in block row k, nothing and O below.
     """
@@ -98,7 +98,7 @@ def by_moesp(blocks: WindowCovariances, observability: Matrix, p: int) -> InputL
 
 
 def powers_along_lags(known: Covariances, A: Matrix) -> list[list[Matrix]]:
-    """The result is M_ij = sum_(l>=1) r_ij(l) A^(l-1), n x n.
+    """Return M_ij = sum_(l>=1) r_ij(l) A^(l-1), n x n.
 
     From l = 1 on, r(l) follows the recurrence of d, the polynomial that annihilates the state of u; so, with d of degree t, (sum_k d_k
     A^(t-k)) M = sum_k d_k A^(t-k) sum_(l=1..k) r(l) A^(l-1).
@@ -124,7 +124,7 @@ def powers_along_lags(known: Covariances, A: Matrix) -> list[list[Matrix]]:
 
 
 def _observed_through(known: Covariances, A: Matrix, C: Matrix) -> Matrix:
-    """The result is X (n x N) with X = A' X Phi + C' H_y, column blocks in the order x, lines."""
+    """Return X (n x N) with X = A' X Phi + C' H_y, column blocks in the order x, lines."""
     process = known.process
     n_x, size = process.n, process.Phi.nrows
     head = range(n_x)

@@ -55,7 +55,7 @@ def _certainly_not_invariant(L: Matrix, Gamma: Matrix, inside: Matrix, outside: 
 
 
 def _eigenvalue_polynomials(basis: Matrix, W: Matrix) -> list[fmpz_poly]:
-    """These are the irreducible polynomials whose roots are the eigenvalues of W, symmetric, on the span of `basis`, which is invariant."""
+    """Return the irreducible polynomials whose roots are the eigenvalues of W, symmetric, on the span of `basis`, which is invariant."""
     if basis.ncols == 0:
         return []
     turned = basis.transposed()
@@ -84,7 +84,7 @@ def _smallest_exceeds_largest(above: list[fmpz_poly], below: list[fmpz_poly]) ->
 
 
 def _extreme(polynomials: list[fmpz_poly], choose: Callable[[arb, arb], arb]) -> arb:
-    """The result is a ball around the least or the largest of all roots."""
+    """Return a ball around the least or the largest of all roots."""
     found: list[Any] = [pair for polynomial in polynomials for pair in polynomial.complex_roots()]
     roots = [root.real for root, _ in found]
     extreme: arb = roots[0]

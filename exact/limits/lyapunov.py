@@ -27,14 +27,14 @@ from .process import DelayLine, JointProcess
 
 
 def solve(matrix: Matrix, right_side: Matrix) -> Matrix:
-    """The result is X with M X = R for M square and nonsingular over Q. Raises ZeroDivisionError where M is singular."""
+    """Return X with M X = R for M square and nonsingular over Q. Raises ZeroDivisionError where M is singular."""
     if 0 in (matrix.nrows, right_side.ncols):
         return Matrix.zero(QQ, matrix.nrows, right_side.ncols)
     return Matrix(QQ, matrix.nrows, right_side.ncols, matrix.flint.solve(right_side.flint, "dixon"))
 
 
 def stein(S: Matrix, T: Matrix, R: Matrix, annihilator: Sequence[Any]) -> Matrix:
-    """The result is X (a x b) with X = S X T' + R; S a x a and T b x b Schur-stable, `annihilator` ascending with c(T) = 0 and stable
+    """Return X (a x b) with X = S X T' + R; S a x a and T b x b Schur-stable, `annihilator` ascending with c(T) = 0 and stable
     roots.
     """
     turned = T.transposed()
@@ -53,7 +53,7 @@ def stein(S: Matrix, T: Matrix, R: Matrix, annihilator: Sequence[Any]) -> Matrix
 
 
 def state_covariance(process: JointProcess) -> Matrix:
-    """The result is the only P = P' with P = Phi P Phi' + Gamma Gamma', N x N. Raises ArithmeticError if substitution fails."""
+    """Return the only P = P' with P = Phi P Phi' + Gamma Gamma', N x N. Raises ArithmeticError if substitution fails."""
     n, lines = process.n, process.lines
     size = process.Phi.nrows
     head, tail = range(n), range(n, size)
@@ -83,7 +83,7 @@ def state_covariance(process: JointProcess) -> Matrix:
 
 
 def _between(one: DelayLine, other: DelayLine) -> Matrix:
-    """The result is the covariance of two lines: one channel of it, Kronecker an identity; zero where their noises are independent."""
+    """Return the covariance of two lines: one channel of it, Kronecker an identity; zero where their noises are independent."""
     if one.noise_start != other.noise_start:
         return Matrix.zero(QQ, one.size, other.size)
     table = [[fmpq(int(i == 0 and j == 0)) for j in range(other.length)] for i in range(one.length)]

@@ -33,7 +33,7 @@ LONGEST_ENTRY = 24
 
 @dataclass(frozen=True, repr=False)
 class PopulationLimits(Shown):
-    """This is what subspace identification converges to for one Experiment: both limits, and B and D of the regressions; `limit` makes it.
+    """What subspace identification converges to for one Experiment: both limits, and B and D of the regressions; `limit` makes it.
 
     `past_inputs` (PI-MOESP) and `past_outputs` (PO-MOESP) are limits of shape s p x (rows of the instruments), with their ranks beside that
     of O_s. `true_AC` and `moesp` are the limits of B (n x nu) and D (p x nu) in the basis of the true A and C, by output error and by
@@ -79,7 +79,7 @@ class PopulationLimits(Shown):
         return self.experiment.sizes
 
     def sheet(self) -> Iterator[tuple[str, str]]:
-        """The result is what `faultspace limit` prints, as (name, value) pairs."""
+        """Yield what `faultspace limit` prints, as (name, value) pairs."""
         system = self.experiment.system.residual
         yield "past inputs as instruments (PI-MOESP)", ""
         yield from _of_limit(self, self.past_inputs)
@@ -98,7 +98,7 @@ class PopulationLimits(Shown):
         yield from _of_arx(self, self.arx)
 
     def to_json(self) -> dict[str, Any]:
-        """The result is what `faultspace limit EXPERIMENT --json` prints."""
+        """Return what `faultspace limit EXPERIMENT --json` prints."""
         result = {
             "n": self.experiment.system.residual.n,
             "s": self.experiment.s,
@@ -144,7 +144,7 @@ class PopulationLimits(Shown):
         return leading_vectors_span(found.matrix, projected, observability_matrix(self.experiment.system.residual, self.experiment.s))
 
     def bias(self, found: InputLimit) -> InputLimit:
-        """The result is the limit minus the true B and D."""
+        """Return the limit minus the true B and D."""
         return InputLimit(found.B - self.experiment.system.B, found.D - self.experiment.system.D)
 
     def _bias(self, found: InputLimit) -> dict[str, Any]:
@@ -162,7 +162,7 @@ class PopulationLimits(Shown):
 
 
 def markov_parameters(A: Matrix, B: Matrix, C: Matrix, D: Matrix, count: int) -> list[Matrix]:
-    """The result is D, CB, CAB, ...: `count` matrices p x nu."""
+    """Return D, CB, CAB, ...: `count` matrices p x nu."""
     result, state = [D], B
     for _ in range(count - 1):
         result.append(C @ state)

@@ -24,21 +24,21 @@ from .process import JointProcess, Signal, joint_process
 
 @dataclass(frozen=True)
 class Covariances:
-    """This is a joint process with the covariance P of its state, N x N."""
+    """A joint process with the covariance P of its state, N x N."""
 
     process: JointProcess
     P: Matrix
 
     def now(self, a: Signal, b: Signal) -> Matrix:
-        """The result is Cov(a(k), b(k))."""
+        """Return Cov(a(k), b(k))."""
         return a.H @ self.P @ b.H.transposed() + a.J @ b.J.transposed()
 
     def with_next_state(self, b: Signal) -> Matrix:
-        """The result is Cov(xi(k+1), b(k)), N x rows of b."""
+        """Return Cov(xi(k+1), b(k)), N x rows of b."""
         return self.process.Phi @ (self.P @ b.H.transposed()) + self.process.Gamma @ b.J.transposed()
 
     def forward(self, a: Signal, b: Signal, most: int) -> list[Matrix]:
-        """The result is Cov(a(k+l), b(k)) for l = 0..most."""
+        """Return Cov(a(k+l), b(k)) for l = 0..most."""
         result = [self.now(a, b)]
         reached = self.with_next_state(b)
         for lag in range(1, most + 1):
@@ -48,7 +48,7 @@ class Covariances:
         return result
 
     def sequence(self, a: Signal, b: Signal, least: int, most: int) -> dict[int, Matrix]:
-        """The result is Cov(a(k+l), b(k)) for l = least..most, either sign."""
+        """Return Cov(a(k+l), b(k)) for l = least..most, either sign."""
         result, ahead = {}, list[Matrix]()
         if most >= 0:
             ahead = self.forward(a, b, most)
@@ -59,12 +59,12 @@ class Covariances:
         return result
 
     def windows(self, a: Signal, b: Signal, rows: range, columns: range) -> Matrix:
-        """The result is the block matrix Cov(a(k+i), b(k+j)), i in `rows` and j in `columns`, both consecutive."""
+        """Return the block matrix Cov(a(k+i), b(k+j)), i in `rows` and j in `columns`, both consecutive."""
         return toeplitz(self.sequence(a, b, rows[0] - columns[-1], rows[-1] - columns[0]), rows, columns)
 
 
 def toeplitz(blocks: Mapping[int, Matrix], rows: range, columns: range) -> Matrix:
-    """The result is the block matrix of the blocks[i - j], i in `rows` and j in `columns`, neither of them empty."""
+    """Return the block matrix of the blocks[i - j], i in `rows` and j in `columns`, neither of them empty."""
     tables = {lag: block.flint.tolist() for lag, block in blocks.items()}
     height, width = blocks[rows[0] - columns[0]].shape
     entries = [x for i in rows for r in range(height) for j in columns for x in tables[i - j][r]]
@@ -85,13 +85,13 @@ class WindowCovariances:
 
 
 def covariances(experiment: Experiment) -> Covariances:
-    """The result is the joint process with its exact state covariance."""
+    """Return the joint process with its exact state covariance."""
     process = joint_process(experiment)
     return Covariances(process, state_covariance(process))
 
 
 def window_covariances(experiment: Experiment, known: Covariances) -> WindowCovariances:
-    """These are the blocks for the windows of the experiment.
+    """Return the blocks for the windows of the experiment.
 
     Raises InvalidInput where the covariance of s + past block rows of u is singular: u is then a combination of its own past.
     """

@@ -27,7 +27,7 @@ from .filters import Filter
 
 @dataclass(frozen=True)
 class Signal:
-    """This is a signal H xi(k) + J e(k)."""
+    """A signal H xi(k) + J e(k)."""
 
     H: Matrix
     J: Matrix
@@ -50,7 +50,7 @@ class DelayLine:
         return self.length * self.width
 
     def companion(self) -> Matrix:
-        """The result is the length x length matrix that moves one channel of the line on."""
+        """Return the length x length matrix that moves one channel of the line on."""
         rows = [[fmpq(0)] * self.length for _ in range(self.length)]
         for j, d in enumerate(self.denominator[1:]):
             rows[0][j] = -d
@@ -59,7 +59,7 @@ class DelayLine:
         return Matrix.from_elements(QQ, self.length, self.length, rows)
 
     def annihilator(self) -> tuple[Any, ...]:
-        """The result is q^length + d_1 q^(length-1) + ..., ascending: the characteristic polynomial of the companion matrix."""
+        """Return q^length + d_1 q^(length-1) + ..., ascending: the characteristic polynomial of the companion matrix."""
         padded = [*self.denominator, *[fmpq(0)] * (self.length + 1 - len(self.denominator))]
         return tuple(reversed(padded))
 
@@ -132,7 +132,7 @@ def _filtered(one: Filter, line: DelayLine, start: int, size: int, noise: int) -
 
 
 def _moved(line: DelayLine, start: int, size: int, noise: int) -> Signal:
-    """The result is the line one step later."""
+    """Return the line one step later."""
     rows = [[fmpq(0)] * size for _ in range(line.size)]
     drive = [[fmpq(0)] * noise for _ in range(line.size)]
     step = line.companion().elements()

@@ -49,16 +49,16 @@ class ZeroAssignment(Shown):
 
     @property
     def P(self) -> Matrix:
-        """This is the choice of columns P (n_z, r)."""
+        """The choice of columns P (n_z, r)."""
         return self.verdict.P
 
     @property
     def system(self) -> ResidualSystem:
-        """This is (A, Fhat P, C, Ghat P), whose invariant zero polynomial is `desired`, made monic."""
+        """(A, Fhat P, C, Ghat P), whose invariant zero polynomial is `desired`, made monic."""
         return self.verdict.system
 
     def to_json(self) -> dict[str, Any]:
-        """The result is the desired polynomial, the unit and the verdict."""
+        """Return the desired polynomial, the unit and the verdict."""
         field = self.P.field
         return {"desired": written(self.desired, field), "unit": field.write(self.unit), **self.verdict.to_json()}
 
@@ -76,14 +76,14 @@ class ZeroAssignment(Shown):
 
 @dataclass(frozen=True, repr=False)
 class Recovery(Shown):
-    """This is a pair from whose outputs r(0..delay) `left_inverse` (m x p(delay + 1)) recovers v(0), whatever the initial state is."""
+    """A pair from whose outputs r(0..delay) `left_inverse` (m x p(delay + 1)) recovers v(0), whatever the initial state is."""
 
     assignment: ZeroAssignment
     delay: int
     left_inverse: Matrix
 
     def to_json(self) -> dict[str, Any]:
-        """The result is the delay, the left inverse and the assignment."""
+        """Return the delay, the left inverse and the assignment."""
         return {"delay": self.delay, "left_inverse": self.left_inverse.to_json(), **self.assignment.to_json()}
 
     @property
@@ -98,7 +98,7 @@ class Recovery(Shown):
 
 
 def assign_zeros(pencil: Exceptional | System, desired: object) -> ZeroAssignment:
-    """The result is a pair (Fhat P, Ghat P) of fault matrices, equivalent to the given ones, whose invariant zeros are the wanted ones.
+    """Return a pair (Fhat P, Ghat P) of fault matrices, equivalent to the given ones, whose invariant zeros are the wanted ones.
 
     `pencil` is that of `exceptional`, or a System; `desired` is a list of ascending coefficients in the field, or over Q a sympy polynomial
     in one symbol, of degree at most zeta. The ZeroAssignment has `P` (n_z x r), `system`, and `unit` with D(q; P) = unit * desired; the
@@ -138,7 +138,7 @@ def assign_zeros(pencil: Exceptional | System, desired: object) -> ZeroAssignmen
 
 
 def recoverable_pair(pencil: Exceptional | System) -> Recovery:
-    """The result is an equivalent pair whose fault the outputs give without the initial state: it has no zeros that can be avoided.
+    """Return an equivalent pair whose fault the outputs give without the initial state: it has no zeros that can be avoided.
 
     `pencil` is that of `exceptional`, or a System; the only finite zeros of the pair are the unobservable modes. The Recovery has `delay`,
     a number of samples, and `left_inverse`, m x p(delay + 1), which takes r(0), ..., r(delay) to v(0). Such a pair exists for every system,
@@ -161,7 +161,7 @@ def recoverable_pair(pencil: Exceptional | System) -> Recovery:
 
 
 def _realising(pencil: Exceptional, free: Poly) -> Matrix:
-    """The result is P with det(L(q) P) = +- free: it solves stacked(L_j) P = coefficients of Q."""
+    """Return P with det(L(q) P) = +- free: it solves stacked(L_j) P = coefficients of Q."""
     field, degrees = pencil.system.field, pencil.left_degrees
     zero, one = field.element(0), field.element(1)
     r, largest = len(degrees), degrees[-1]

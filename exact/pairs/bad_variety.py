@@ -58,7 +58,7 @@ class BadSet(Shown):
 
     @property
     def rank_deficient_codimension(self) -> int | None:
-        """This is the codimension of the P that are not of full column rank: n_z - r + 1 = zeta + 1; None for r = 0."""
+        """The codimension of the P that are not of full column rank: n_z - r + 1 = zeta + 1; None for r = 0."""
         return None if self.exceptional.columns == 0 else self.exceptional.zeta + 1
 
     def to_json(self) -> dict[str, Any]:
@@ -105,7 +105,7 @@ class BadEquations(Shown):
         return self.exceptional.columns
 
     def to_json(self) -> dict[str, Any]:
-        """These are the equations and their factors as texts."""
+        """Return the equations and their factors as texts."""
         return {
             "equations": [str(f) for f in self.equations],
             "factors": [[[str(g), e] for g, e in factors] for factors in self.factors],
@@ -125,7 +125,7 @@ class BadEquations(Shown):
 
 
 def bad_set(pencil: Exceptional | System) -> BadSet:
-    """The result is the dimension and the codimension of the bad P, the n_z x r matrices whose pair is not equivalent to the system.
+    """Return the dimension and the codimension of the bad P, the n_z x r matrices whose pair is not equivalent to the system.
 
     `pencil` is that of `exceptional`, or any System over any field; dimensions are those over the algebraic closure. The BadSet also lists
     the `strata`, by the minimal indices of what L(q) P spans. Source: [F75], [G25] Theorem 3.
@@ -153,7 +153,7 @@ def bad_set(pencil: Exceptional | System) -> BadSet:
 
 
 def bad_equations(pencil: Exceptional | System) -> BadEquations:
-    """The result is the equations of the bad P: the zeta + 1 coefficients of D(q; P), expanded in the entries of P and factored.
+    """Return the equations of the bad P: the zeta + 1 coefficients of D(q; P), expanded in the entries of P and factored.
 
     `pencil` is that of `exceptional`, or a System, over Q or a prime field, with at most 16 entries in P, which is n_z x r and bad iff all
     coefficients are 0. The BadEquations has `entries`, the sympy symbols p11, p12, ..., `equations` and `factors`. Source: [G25] Theorem 3.
@@ -193,7 +193,7 @@ def bad_equations(pencil: Exceptional | System) -> BadEquations:
 
 
 def _index_lists(bounds: Sequence[int], least: int = 0) -> Iterator[tuple[int, ...]]:
-    """These are all ascending e with e_i <= bounds_i."""
+    """Yield all ascending e with e_i <= bounds_i."""
     if not bounds:
         yield ()
         return
@@ -203,7 +203,7 @@ def _index_lists(bounds: Sequence[int], least: int = 0) -> Iterator[tuple[int, .
 
 
 def _codimension(degrees: Sequence[int], indices: Sequence[int]) -> int:
-    """The result is the codimension of the Q with this type among all with row degrees at most `degrees`."""
+    """Return the codimension of the Q with this type among all with row degrees at most `degrees`."""
     r = len(degrees)
     modules = r * (sum(indices) + 1) - 1 - sum(max(0, y - x - 1) for x, y in combinations(indices, 2))
     rows = sum(max(0, k - e + 1) for k in degrees for e in indices)
@@ -218,7 +218,7 @@ def _factors(constant: Any, powers: Sequence[tuple[Any, int]]) -> tuple[tuple[An
 
 
 def _reduced_and_factored(f: Any, symbols: Any, prime: int) -> tuple[Any, tuple[tuple[Any, int], ...]]:
-    """The result is f modulo the prime with residues in 0..p-1, and its factors, by FLINT: sympy factors in one unknown only."""
+    """Return f modulo the prime with residues in 0..p-1, and its factors, by FLINT: sympy factors in one unknown only."""
     import sympy
 
     if not len(symbols):

@@ -47,7 +47,7 @@ class BehaviorName(Shown):
 
     @property
     def left_minimal_indices(self) -> tuple[int, ...]:
-        """These are the degrees of the rows, ascending."""
+        """The degrees of the rows, ascending."""
         return tuple(row.nrows - 1 for row in self.rows)
 
     def to_json(self) -> dict[str, Any]:
@@ -156,7 +156,7 @@ def fault_class(kernel: KernelRepresentation | System) -> FaultClass:
 
 
 def feedback_class(kernel: KernelRepresentation | System) -> FeedbackClass:
-    """The result is what the systems (A + Fhat K, C + Ghat K) have in common for all K, with the fault space, which they share.
+    """Return what the systems (A + Fhat K, C + Ghat K) have in common for all K, with the fault space, which they share.
 
     A change v = K x + v' of the fault signal leaves the outputs what they are; two systems with n states and p outputs have the same
     FeedbackClass iff their fault space is the same and the columns of [A' - A; C' - C] lie in it. Equal classes have equal behaviours, and
@@ -180,7 +180,7 @@ def feedback_class(kernel: KernelRepresentation | System) -> FeedbackClass:
 
 
 def with_feedback(system: ResidualSystem, K: object) -> ResidualSystem:
-    """The result is (A + F K, F, C + G K, G): v = K x + v', a change of the fault signal, leaves the outputs what they are. K is m x n.
+    """Return (A + F K, F, C + G K, G): v = K x + v', a change of the fault signal, leaves the outputs what they are. K is m x n.
 
     Raises InvalidInput for another shape or field.
     """

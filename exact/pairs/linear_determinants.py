@@ -34,14 +34,14 @@ def determinant(matrix: Matrix) -> Any:
 
 
 def linear_determinant(constant: Matrix, slope: Matrix) -> Poly:
-    """The result is det(constant + q slope), exactly and not up to a unit. Raises InvalidInput unless both are square of one size."""
+    """Return det(constant + q slope), exactly and not up to a unit. Raises InvalidInput unless both are square of one size."""
     if isinstance(constant.field, Rationals):
         return by_values(constant, slope)
     return by_deflation(constant, slope)
 
 
 def by_values(constant: Matrix, slope: Matrix) -> Poly:
-    """The result is det(constant + q slope) from its values at q = 0..rank(slope).
+    """Return det(constant + q slope) from its values at q = 0..rank(slope).
 
     Raises InvalidInput over number fields and over prime fields without that many elements.
     """
@@ -62,7 +62,7 @@ def by_values(constant: Matrix, slope: Matrix) -> Poly:
 
 
 def by_deflation(constant: Matrix, slope: Matrix) -> Poly:
-    """The result is det(constant + q slope): combinations of columns that have no q are eliminated, which leaves a smaller such
+    """Return det(constant + q slope): combinations of columns that have no q are eliminated, which leaves a smaller such
     determinant.
     """
     _square(constant, slope)
@@ -92,7 +92,7 @@ def by_deflation(constant: Matrix, slope: Matrix) -> Poly:
 
 
 def _divided_from_the_left(constant: Matrix, slope: Matrix) -> Matrix:
-    """The result is slope^-1 constant."""
+    """Return slope^-1 constant."""
     quotient = solve_left(slope.transposed(), constant.transposed())
     if quotient is None:
         raise ArithmeticError("an invertible matrix has no inverse")

@@ -36,7 +36,7 @@ from .polynomial import Exceptional, PairVerdict, exceptional, judge
 
 @dataclass(frozen=True)
 class Alternative:
-    """This is an `F` with another column space and G = 0 that makes the same outputs.
+    """An `F` with another column space and G = 0 that makes the same outputs.
 
     The column `replaced` is put in the place of the first. Where v is not pinned either, it is outside im F + N, N the unobservable
     subspace.
@@ -48,11 +48,11 @@ class Alternative:
 
     @property
     def system(self) -> ResidualSystem:
-        """This is (A, F', C, 0)."""
+        """(A, F', C, 0)."""
         return self.verdict.system
 
     def to_json(self) -> dict[str, Any]:
-        """The result is F', the column and the verdict on the pair."""
+        """Return F', the column and the verdict on the pair."""
         return {"F": self.F.to_json(), "replaced": self.replaced.to_json(), **self.verdict.to_json()}
 
 
@@ -74,7 +74,7 @@ class ZeroFeedthrough(Shown):
 
     @property
     def ambiguity(self) -> int:
-        """This is zeta - m, the dimension that the members have beyond im F."""
+        """Zeta - m, the dimension that the members have beyond im F."""
         return self.members.ncols - self.exceptional.columns
 
     @property
@@ -91,11 +91,11 @@ class ZeroFeedthrough(Shown):
 
     @property
     def finite_zeros(self) -> int:
-        """This is n_f of the system."""
+        """N_f of the system."""
         return len(self.own.polynomial) - 1
 
     def to_json(self) -> dict[str, Any]:
-        """The result is what a certificate needs: members, condition, and the alternative where there is one."""
+        """Return what a certificate needs: members, condition, and the alternative where there is one."""
         return {
             "members": self.members.to_json(),
             "zeta": self.members.ncols,
@@ -164,14 +164,14 @@ def zero_feedthrough(kernel: KernelRepresentation | System) -> ZeroFeedthrough:
 
 
 def _coordinates(pencil: Exceptional, F: Matrix) -> Matrix:
-    """The result is P with [Fhat; Ghat] P = [F; 0]."""
+    """Return P with [Fhat; Ghat] P = [F; 0]."""
     from_basis = stacked(F, Matrix.zero(F.field, pencil.system.p, F.ncols))
     pivots = [next(j for j, x in enumerate(row) if x != 0) for row in pencil.space.basis.elements()]
     return from_basis.rows(pivots)
 
 
 def _alternative(pencil: Exceptional, system: ResidualSystem) -> Alternative | None:
-    """The result is another F' with zero feedthrough, by exchanging one column; None where im F = U or there is no fault."""
+    """Return another F' with zero feedthrough, by exchanging one column; None where im F = U or there is no fault."""
     if system.m == 0 or pencil.zeta == system.m:
         return None
     hidden = pencil.states @ largest_output_nulling(pencil.reduced)

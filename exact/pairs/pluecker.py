@@ -36,7 +36,7 @@ class PlueckerForms:
     minors: Mapping[Subset, Poly]
 
     def to_json(self) -> dict[str, Any]:
-        """The result is the list of pairs (J, coefficients of h_J)."""
+        """Return the list of pairs (J, coefficients of h_J)."""
         field = self.exceptional.system.field
         return {"minors": [[list(J), written(h, field)] for J, h in sorted(self.minors.items())]}
 
@@ -55,7 +55,7 @@ def forms_of_determinant(pencil: Exceptional) -> PlueckerForms:
 
 
 def value(forms: PlueckerForms, P: object) -> Poly:
-    """The result is the sum over J of det(P_J) h_J(q) for P, n_z x r. Raises InvalidInput for another shape."""
+    """Return the sum over J of det(P_J) h_J(q) for P, n_z x r. Raises InvalidInput for another shape."""
     matrix = pair_matrix(forms.exceptional, P)
     total: Poly = ()
     for J, h in forms.minors.items():
@@ -65,7 +65,7 @@ def value(forms: PlueckerForms, P: object) -> Poly:
 
 
 def coefficient_forms(forms: PlueckerForms) -> tuple[tuple[Subset, ...], Matrix]:
-    """The result is (subsets, M): P is bad iff M times the column of det(P_J), J in that order, is 0.
+    """Return (subsets, M): P is bad iff M times the column of det(P_J), J in that order, is 0.
 
     M has zeta + 1 rows, and row k has the coefficients of q^k. Its rank is zeta + 1 - deg fixed: all rows are independent where (A, C) is
     observable.

@@ -45,7 +45,7 @@ from .linear_determinants import linear_determinant
 
 @dataclass(frozen=True, repr=False)
 class Exceptional(Shown):
-    """This is the pencil q b - a of a system's fault space Z.
+    """The pencil q b - a of a system's fault space Z.
 
     `kernel` and `space` are those of the system; `states` is U (n x zeta, reduced column echelon form); `b` and `a` (n_z x zeta) satisfy
     [Fhat; Ghat] b = [U; 0] and [Fhat; Ghat] a = [A U; C U].
@@ -59,27 +59,27 @@ class Exceptional(Shown):
 
     @property
     def system(self) -> ResidualSystem:
-        """This is the system whose fault space it is."""
+        """The system whose fault space it is."""
         return self.space.system
 
     @property
     def columns(self) -> int:
-        """This is r, the number of columns of every P: the normal rank, which is m where the system is left-invertible."""
+        """R, the number of columns of every P: the normal rank, which is m where the system is left-invertible."""
         return self.kernel.normal_rank
 
     @property
     def n_z(self) -> int:
-        """This is n_z = r + zeta, the number of rows of every P."""
+        """N_z = r + zeta, the number of rows of every P."""
         return self.space.dimension
 
     @property
     def zeta(self) -> int:
-        """This is dim U, the number of zeros, finite and infinite, of every good pair, and the bound on the degree of D."""
+        """Dim U, the number of zeros, finite and infinite, of every good pair, and the bound on the degree of D."""
         return self.states.ncols
 
     @cached_property
     def reduced(self) -> ResidualSystem:
-        """This is (A_U, C_U), zeta states and r outputs, no fault: q b - a in coordinates of Z that begin with b."""
+        """(A_U, C_U), zeta states and r outputs, no fault: q b - a in coordinates of Z that begin with b."""
         zeta, field = self.zeta, self.system.field
         inverse = _inverse(self.basis_change)
         both = inverse @ self.a
@@ -88,13 +88,13 @@ class Exceptional(Shown):
 
     @cached_property
     def basis_change(self) -> Matrix:
-        """This is [b | unit columns], invertible, n_z x n_z."""
+        """[b | unit columns], invertible, n_z x n_z."""
         free = sorted(set(range(self.n_z)) - set(row_profile(self.b)))
         return beside(self.b, Matrix.identity(self.system.field, self.n_z).columns(free))
 
     @cached_property
     def left_kernel(self) -> tuple[Matrix, ...]:
-        """These are the rows L_j(q) of a minimal basis of {l(q) : l(q) (q b - a) = 0}, (k_j + 1) x n_z coefficients each, ascending by
+        """The rows L_j(q) of a minimal basis of {l(q) : l(q) (q b - a) = 0}, (k_j + 1) x n_z coefficients each, ascending by
         degree.
         """
         inverse = _inverse(self.basis_change)
@@ -104,12 +104,12 @@ class Exceptional(Shown):
 
     @property
     def left_degrees(self) -> tuple[int, ...]:
-        """These are k_1 <= ... <= k_r."""
+        """K_1 <= ... <= k_r."""
         return tuple(row.nrows - 1 for row in self.left_kernel)
 
     @cached_property
     def fixed(self) -> Poly:
-        """These are the zeros that no P moves: the characteristic polynomial, monic, of A on the unobservable subspace of (A, C)."""
+        """The zeros that no P moves: the characteristic polynomial, monic, of A on the unobservable subspace of (A, C)."""
         return zero_dynamics_polynomial(self.reduced)
 
     @property
@@ -145,7 +145,7 @@ class Exceptional(Shown):
 
 @dataclass(frozen=True, repr=False)
 class PairVerdict(Shown):
-    """This is P with its `rank` and `polynomial` = det [P | q b - a], ascending coefficients, which is () where P is bad."""
+    """P with its `rank` and `polynomial` = det [P | q b - a], ascending coefficients, which is () where P is bad."""
 
     exceptional: Exceptional
     P: Matrix
@@ -159,17 +159,17 @@ class PairVerdict(Shown):
 
     @property
     def system(self) -> ResidualSystem:
-        """This is (A, Fhat P, C, Ghat P)."""
+        """(A, Fhat P, C, Ghat P)."""
         return with_pair(self.exceptional.space, self.P)
 
     @property
     def finite_zeros(self) -> int | None:
-        """This is the number of finite zeros of the pair, those of the unobservable part included; None for a bad P."""
+        """The number of finite zeros of the pair, those of the unobservable part included; None for a bad P."""
         return len(self.polynomial) - 1 if self.good else None
 
     @property
     def infinite_zeros(self) -> int | None:
-        """This is the number of infinite zeros of the pair; None for a bad P."""
+        """The number of infinite zeros of the pair; None for a bad P."""
         return self.exceptional.zeta - len(self.polynomial) + 1 if self.good else None
 
     @cached_property
@@ -187,7 +187,7 @@ class PairVerdict(Shown):
         return f"P has full column rank, but D(q; P) = 0: the pair has normal rank below {self.P.ncols}"
 
     def to_json(self) -> dict[str, Any]:
-        """The result is what a certificate needs: P, the coefficients of D, b and a, and the null vector of a bad P."""
+        """Return what a certificate needs: P, the coefficients of D, b and a, and the null vector of a bad P."""
         field = self.P.field
         null = self.null_vector
         return {
@@ -213,7 +213,7 @@ class PairVerdict(Shown):
 
 
 def exceptional(kernel: KernelRepresentation | System) -> Exceptional:
-    """The result is the pencil q b - a of the fault space of a system: D(q; P) = det [P | q b - a] says which P are bad.
+    """Return the pencil q b - a of the fault space of a system: D(q; P) = det [P | q b - a] says which P are bad.
 
     `kernel` is any System over any field, or its KernelRepresentation. The Exceptional has `n_z` and `columns` (r, the normal rank), the
     shape of every P, `zeta`, the number of zeros of every good pair, `b` and `a` (n_z x zeta), and the `fixed` zeros that no P moves.
@@ -244,7 +244,7 @@ def exceptional(kernel: KernelRepresentation | System) -> Exceptional:
 
 
 def pencil_of(given: Exceptional | KernelRepresentation | System) -> Exceptional:
-    """The result is the pencil that is given, or that of a system. Raises InvalidInput for anything else."""
+    """Return the pencil that is given, or that of a system. Raises InvalidInput for anything else."""
     return given if isinstance(given, Exceptional) else exceptional(given)
 
 
@@ -270,13 +270,13 @@ def judge(pencil: Exceptional | System, P: object) -> PairVerdict:
 
 
 def polynomial_at(pencil: Exceptional, P: Matrix) -> Poly:
-    """The result is D(q; P) = det [P | q b - a] for P of shape n_z x r."""
+    """Return D(q; P) = det [P | q b - a] for P of shape n_z x r."""
     nothing = Matrix.zero(pencil.system.field, pencil.n_z, pencil.columns)
     return linear_determinant(beside(P, -pencil.a), beside(nothing, pencil.b))
 
 
 def pair_matrix(pencil: Exceptional, P: object) -> Matrix:
-    """The result is P as a Matrix of shape n_z x r. Raises InvalidInput for another shape or field."""
+    """Return P as a Matrix of shape n_z x r. Raises InvalidInput for another shape or field."""
     shape = (pencil.n_z, pencil.columns)
     matrix = P if isinstance(P, Matrix) else Matrix.of(P, pencil.system.field, shape=shape if 0 in shape else None, where="P")
     if matrix.field != pencil.system.field:

@@ -33,7 +33,7 @@ class GoodColumns(Shown):
     verdict: PairVerdict
 
     def to_json(self) -> dict[str, Any]:
-        """The result is P, the coefficients of D and the columns chosen."""
+        """Return P, the coefficients of D and the columns chosen."""
         return {"chosen": list(self.chosen), **self.verdict.to_json()}
 
     @property
@@ -48,7 +48,7 @@ class GoodColumns(Shown):
 
 @dataclass(frozen=True, repr=False)
 class BadPair(Shown):
-    """This is a bad P of full column rank, with the `conditions` (rows x n_z) that make it bad.
+    """A bad P of full column rank, with the `conditions` (rows x n_z) that make it bad.
 
     Where `kind` is "row", they are the coefficients of one row L_j(q), and L_j(q) P = 0. Where it is "unobservable", they are those of all
     rows, which are not independent of the unobservable part, and the first column of L(q) P is zero.
@@ -59,7 +59,7 @@ class BadPair(Shown):
     verdict: PairVerdict
 
     def to_json(self) -> dict[str, Any]:
-        """The result is P, its null vector and the conditions."""
+        """Return P, its null vector and the conditions."""
         return {"kind": self.kind, "conditions": self.conditions.to_json(), **self.verdict.to_json()}
 
     @property
@@ -81,7 +81,7 @@ class NoBadPair(Shown):
     reason: str
 
     def to_json(self) -> dict[str, Any]:
-        """The result is the reason with zeta, r and the degrees k_j."""
+        """Return the reason with zeta, r and the degrees k_j."""
         left = self.exceptional
         return {"reason": self.reason, "zeta": left.zeta, "columns": left.columns, "left_degrees": list(left.left_degrees)}
 
@@ -96,7 +96,7 @@ class NoBadPair(Shown):
 
 
 def good_columns(pencil: Exceptional | System) -> GoodColumns:
-    """The result is a good P (n_z x r) with entries 0 and 1, a single 1 in each column, found without a search and decided exactly.
+    """Return a good P (n_z x r) with entries 0 and 1, a single 1 in each column, found without a search and decided exactly.
 
     `pencil` is that of `exceptional`, or a System. `chosen` lists the r columns of [Fhat; Ghat] that are an equivalent pair by themselves:
     the first independent columns of L(0), L(q) being a minimal basis, whose rank drops nowhere. Source: [F75], [G25] Theorem 3.
@@ -119,7 +119,7 @@ def good_columns(pencil: Exceptional | System) -> GoodColumns:
 
 
 def bad_pair(pencil: Exceptional | System) -> BadPair | NoBadPair:
-    """The result is a bad P (n_z x r) of full column rank by construction, or the reason why there is none.
+    """Return a bad P (n_z x r) of full column rank by construction, or the reason why there is none.
 
     `pencil` is that of `exceptional`, or a System. There is one iff r >= 1 and (A, C) is not observable, or r >= 2 and zeta >= 1. A BadPair
     has `verdict` with P and a null vector, and `conditions`, the rows that make it bad; a NoBadPair has the `reason`. Source: [F75], [G25]

@@ -93,7 +93,7 @@ class Congruence:
 
 @dataclass(frozen=True)
 class Unit:
-    """This is a polynomial without zeros on the branch.
+    """A polynomial without zeros on the branch.
 
     A split decided it when `source` is None. Otherwise it divides the remainder of the earlier unit number `source`: polynomial *
     complement = congruence.remainder, the congruence being that of the earlier unit.
@@ -107,7 +107,7 @@ class Unit:
 
 @dataclass(frozen=True)
 class Branch:
-    """These are the parameter values at which every decision holds.
+    """The parameter values at which every decision holds.
 
     `parameters` is the number of leading generators of the ring that are parameters; the others are indeterminates that no question may
     contain. `decisions` are pairs (polynomial, whether it vanishes) from the root down.
@@ -122,17 +122,17 @@ class Branch:
 
     @property
     def vanishing(self) -> tuple[Any, ...]:
-        """These are the polynomials set to zero, as sympy expressions."""
+        """The polynomials set to zero, as sympy expressions."""
         return tuple(polynomial.as_expr() for polynomial, vanishes in self.decisions if vanishes)
 
     @property
     def nonvanishing(self) -> tuple[Any, ...]:
-        """These are the polynomials required not to vanish, as sympy expressions."""
+        """The polynomials required not to vanish, as sympy expressions."""
         return tuple(polynomial.as_expr() for polynomial, vanishes in self.decisions if not vanishes)
 
     @property
     def dimension(self) -> int:
-        """This is the number of parameters left free."""
+        """The number of parameters left free."""
         return self.parameters - len(self.equations)
 
     def contains(self, values: Sequence[Any]) -> bool:
@@ -140,7 +140,7 @@ class Branch:
         return all((evaluate(polynomial, values) == 0) == vanishes for polynomial, vanishes in self.decisions)
 
     def point(self, values: Sequence[Any]) -> tuple[Any, ...]:
-        """The result is the point of the branch whose free parameters are those of `values` (Fractions); the others are solved for.
+        """Return the point of the branch whose free parameters are those of `values` (Fractions); the others are solved for.
 
         Raises ValueError where a unit vanishes, so that there is no such point.
         """
@@ -156,7 +156,7 @@ class Branch:
         return tuple(point)
 
     def reduce(self, f: Polynomial) -> Polynomial:
-        """The result is the remainder of `congruence(f)`, without the cofactors."""
+        """Return the remainder of `congruence(f)`, without the cofactors."""
         for equation in self.equations:
             f = _divide(f, equation)[2]
         return f
@@ -175,7 +175,7 @@ class Branch:
         return Congruence(multiplier, tuple(cofactors), f)
 
     def joint_reduce(self, polynomials: Sequence[Polynomial]) -> list[Polynomial]:
-        """These are remainders of several polynomials, all multiplied by one product of units."""
+        """Return remainders of several polynomials, all multiplied by one product of units."""
         rest = list(polynomials)
         for equation in self.equations:
             times = max((_degree(f, equation.variable) for f in rest), default=0)
@@ -185,7 +185,7 @@ class Branch:
         return rest
 
     def joint_congruence(self, polynomials: Sequence[Polynomial]) -> tuple[UnitProduct, list[Congruence]]:
-        """These are congruences of several polynomials with one multiplier."""
+        """Return congruences of several polynomials with one multiplier."""
         multiplier = UnitProduct()
         columns: list[list[Polynomial]] = [[] for _ in polynomials]
         rest = list(polynomials)
@@ -212,7 +212,7 @@ class Branch:
         return False
 
     def unit_product(self, f: Polynomial) -> UnitProduct:
-        """The result is f, free of solved parameters and never zero on the branch, as a product of units; raises Undecided if it may
+        """Return f, free of solved parameters and never zero on the branch, as a product of units; raises Undecided if it may
         vanish.
         """
         constant, powers = factors(f)
@@ -224,7 +224,7 @@ class Branch:
         return UnitProduct(constant, tuple(sorted(found.items())))
 
     def without_units(self, polynomials: Sequence[Polynomial]) -> list[Polynomial]:
-        """These are the polynomials divided by the integers and units that divide all of them."""
+        """Return the polynomials divided by the integers and units that divide all of them."""
         rest = list(polynomials)
         filled = [f for f in rest if f]
         if not filled:
@@ -244,7 +244,7 @@ class Branch:
         return [f.quo_ground(content) for f in rest] if content > 1 else rest
 
     def split(self, g: Polynomial) -> list[Branch]:
-        """The result is the branches g != 0 and g = 0, or, when no unit multiplies a parameter linearly in g, those of a simpler
+        """Return the branches g != 0 and g = 0, or, when no unit multiplies a parameter linearly in g, those of a simpler
         polynomial.
 
         g is irreducible, free of solved parameters, and no unit. Raises NonlinearCondition.
@@ -269,7 +269,7 @@ class Branch:
         return replace(self, decisions=decisions, units=(*self.units, unit), _unit_index=index)
 
     def _with_equation(self, equation: Equation) -> Branch:
-        """The result is the branch on which the equation holds; its units are looked at again, as they may have got new factors.
+        """Return the branch on which the equation holds; its units are looked at again, as they may have got new factors.
 
         None of them becomes 0: before, the remainder of a unit was a product of irreducible units in the free parameters, and the equation
         is irreducible and no unit, so it does not divide this product.
@@ -354,7 +354,7 @@ def factors(f: Polynomial) -> tuple[int, list[tuple[Polynomial, int]]]:
 
 
 def _divide(f: Polynomial, equation: Equation) -> tuple[int, Polynomial, Polynomial]:
-    """The result is (k, q, r) with initial**k f = q * equation + r and r free of the equation's parameter."""
+    """Return (k, q, r) with initial**k f = q * equation + r and r free of the equation's parameter."""
     x, ring = equation.variable, f.ring
     quotient = ring.zero
     degree = _degree(f, x)
@@ -368,12 +368,12 @@ def _divide(f: Polynomial, equation: Equation) -> tuple[int, Polynomial, Polynom
 
 
 def _degree(f: Polynomial, x: int) -> int:
-    """The result is the degree in generator x, 0 for the zero polynomial."""
+    """Return the degree in generator x, 0 for the zero polynomial."""
     return max((exponents[x] for exponents in f), default=0)
 
 
 def _coefficient(f: Polynomial, x: int, power: int) -> Polynomial:
-    """The result is the coefficient of generator x to the power, a polynomial free of x."""
+    """Return the coefficient of generator x to the power, a polynomial free of x."""
     terms = {}
     for exponents, coefficient in f.items():
         if exponents[x] == power:
@@ -382,18 +382,18 @@ def _coefficient(f: Polynomial, x: int, power: int) -> Polynomial:
 
 
 def coefficients(f: Polynomial, x: int) -> list[Polynomial]:
-    """These are the coefficients of f by ascending powers of generator x; [] for the zero polynomial."""
+    """Return the coefficients of f by ascending powers of generator x; [] for the zero polynomial."""
     return [_coefficient(f, x, power) for power in range(_degree(f, x) + 1)] if f else []
 
 
 def _exact_quotient(f: Polynomial, divisor: Polynomial) -> Polynomial | None:
-    """The result is f / divisor, or None where the division leaves a remainder."""
+    """Return f / divisor, or None where the division leaves a remainder."""
     quotient, remainder = f.div(divisor)
     return None if remainder else quotient
 
 
 def _gcd(content: int, f: Polynomial) -> int:
-    """The result is the gcd of an integer and the coefficients of f."""
+    """Return the gcd of an integer and the coefficients of f."""
     for coefficient in f.values():
         content = int(flint.fmpz(content).gcd(flint.fmpz(int(coefficient))))
         if content == 1:

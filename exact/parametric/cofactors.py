@@ -140,7 +140,7 @@ def _generic(n: int, p: int, m: int, *, zero_feedthrough: bool) -> GenericExcept
 
 
 def _space(entries: Indeterminates, zero_feedthrough: bool) -> tuple[Rows, Rows, Rows]:
-    """The result is a basis of Z as (n + p) x n_z, with b and a."""
+    """Return a basis of Z as (n + p) x n_z, with b and a."""
     n, p, m, ring = entries.n, entries.p, entries.m, entries.ring
 
     def unit(size: int) -> list[list[Polynomial]]:
@@ -157,7 +157,7 @@ def _space(entries: Indeterminates, zero_feedthrough: bool) -> tuple[Rows, Rows,
 
 
 def _point(entries: Indeterminates, zero_feedthrough: bool, zeta: int, cofactors: Sequence[Polynomial]) -> tuple[int, ...]:
-    """These are integer values where the ranks are the largest possible and the cofactors have no common factor, one of them of full
+    """Return integer values where the ranks are the largest possible and the cofactors have no common factor, one of them of full
     degree.
     """
     n, p, m = entries.n, entries.p, entries.m

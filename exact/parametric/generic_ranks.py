@@ -26,7 +26,7 @@ from .stratification import Indeterminates, indeterminates
 
 @dataclass(frozen=True)
 class GenericWindow:
-    """This is the window of `samples` samples: a rows x columns matrix of rank `rank` over Q(entries).
+    """The window of `samples` samples: a rows x columns matrix of rank `rank` over Q(entries).
 
     At parameter values its rank is smaller if and only if one of the `factors` vanishes or all of the `remaining` do. The rank drops
     nowhere if there is no factor and the one remaining condition is 1. Both are polynomials of sympy's ring over ZZ; `common_factors` and
@@ -43,12 +43,12 @@ class GenericWindow:
 
     @property
     def common_factors(self) -> tuple[Any, ...]:
-        """These are irreducible polynomials that divide every maximal minor, as sympy expressions."""
+        """Irreducible polynomials that divide every maximal minor, as sympy expressions."""
         return tuple(f.as_expr() for f in self.factors)
 
     @property
     def conditions(self) -> tuple[Any, ...]:
-        """This is what the maximal minors have besides the common factors, as sympy expressions."""
+        """What the maximal minors have besides the common factors, as sympy expressions."""
         return tuple(f.as_expr() for f in self.remaining)
 
     @property
@@ -99,7 +99,7 @@ class GenericRanks(Shown):
 
 
 def generic_window_ranks(n: int, p: int, m: int, windows: Iterable[int]) -> GenericRanks:
-    """The result is the rank of [O_s T_s] for almost all A (n x n), C (p x n), F (n x m), G (p x m), and where it is smaller.
+    """Return the rank of [O_s T_s] for almost all A (n x n), C (p x n), F (n x m), G (p x m), and where it is smaller.
 
     `windows` are numbers of samples s >= 1. Each GenericWindow has the `rank` over the field Q(entries) and the polynomials in the entries
     that say where it drops: where one of the `common_factors` vanishes or all `conditions` do. They are the maximal minors, multiplied out;
@@ -144,7 +144,7 @@ def _generic_window(entries: Indeterminates, samples: int) -> GenericWindow:
 
 
 def _maximal_minors(route: SecondRoute, lines: list[list[FlintPolynomial]], width: int) -> list[FlintPolynomial]:
-    """These are the nonzero minors of size `width` of a matrix with so many columns, column by column, smaller minors shared."""
+    """Return the nonzero minors of size `width` of a matrix with so many columns, column by column, smaller minors shared."""
     minors: dict[tuple[int, ...], FlintPolynomial] = {(): route.context.constant(1)}
     for column in range(width):
         larger: dict[tuple[int, ...], FlintPolynomial] = {}
@@ -163,7 +163,7 @@ def _maximal_minors(route: SecondRoute, lines: list[list[FlintPolynomial]], widt
 def _reduced(
     route: SecondRoute, entries: Indeterminates, minors: list[FlintPolynomial]
 ) -> tuple[tuple[Polynomial, ...], tuple[Polynomial, ...]]:
-    """These are the irreducible common factors, and conditions with the same common zeros as the minors without their gcd."""
+    """Return the irreducible common factors, and conditions with the same common zeros as the minors without their gcd."""
     common = minors[0]
     for minor in minors[1:]:
         common = common.gcd(minor)

@@ -38,7 +38,7 @@ class IdentityFailure(ValueError):
 
 @dataclass(frozen=True)
 class Expansion:
-    """This is what `verify_identities` checked.
+    """What `verify_identities` checked.
 
     `relations` counts the rows (k, i) of windows up to `windows` samples that were seen to depend on earlier rows, `independent` those seen
     to be independent, `expanded` the polynomial identities multiplied out, and `terms` the terms of their left-hand sides.
@@ -54,7 +54,7 @@ class Expansion:
 
 
 class SecondRoute:
-    """This is FLINT's copy of a ring, with counters of what was expanded in it."""
+    """FLINT's copy of a ring, with counters of what was expanded in it."""
 
     def __init__(self, ring: Ring) -> None:
         self.names = tuple(str(symbol) for symbol in ring.symbols)
@@ -64,7 +64,7 @@ class SecondRoute:
         self._images: dict[Polynomial, FlintPolynomial] = {}
 
     def __call__(self, f: Polynomial) -> FlintPolynomial:
-        """The result is the image of a polynomial."""
+        """Return the image of a polynomial."""
         image = self._images.get(f)
         if image is None:
             terms = {tuple(map(int, exponents)): int(coefficient) for exponents, coefficient in f.items()}
@@ -72,7 +72,7 @@ class SecondRoute:
         return image
 
     def generator(self, name: str) -> FlintPolynomial:
-        """The result is the generator of that name."""
+        """Return the generator of that name."""
         return self.context.gen(self.names.index(name))
 
     def unit(self, branch: Branch, product: UnitProduct) -> FlintPolynomial:
@@ -100,11 +100,11 @@ class SecondRoute:
         )
 
     def combination(self, branch: Branch, cofactors: Sequence[Polynomial]) -> FlintPolynomial:
-        """The result is sum of cofactors * equations."""
+        """Return sum of cofactors * equations."""
         return self.combination_of_images(branch, [self(cofactor) for cofactor in cofactors])
 
     def combination_of_images(self, branch: Branch, cofactors: Sequence[FlintPolynomial]) -> FlintPolynomial:
-        """The result is the same with cofactors that are FLINT's already."""
+        """Return the same with cofactors that are FLINT's already."""
         total = self.context.constant(0)
         for cofactor, equation in zip(cofactors, branch.equations, strict=True):
             total += cofactor * self(equation.polynomial)
@@ -112,7 +112,7 @@ class SecondRoute:
 
 
 class FlintWindow:
-    """This is [O_s T_s] from its definition, over FLINT: row (k, i) is [C A^k, C A^(k-1) F, ..., C F, G, 0, ..., 0] in row i."""
+    """[O_s T_s] from its definition, over FLINT: row (k, i) is [C A^k, C A^(k-1) F, ..., C F, G, 0, ..., 0] in row i."""
 
     def __init__(self, route: SecondRoute, entries: Indeterminates, samples: int) -> None:
         n, p, m = entries.n, entries.p, entries.m
@@ -134,7 +134,7 @@ class FlintWindow:
         }
 
     def times(self, row: Sequence[FlintPolynomial], matrix: Sequence[Sequence[FlintPolynomial]], width: int) -> list[Any]:
-        """The result is the row vector times the matrix."""
+        """Return the row vector times the matrix."""
         products = [[x * line[j] for x, line in zip(row, matrix, strict=True)] for j in range(width)]
         return [sum(column, self.zero) for column in products]
 
@@ -274,13 +274,13 @@ def verify_row(window: FlintWindow, stratum: Stratum, row: ReducedRow, samples: 
 
 
 def _shifted(window: FlintWindow, line: list[FlintPolynomial], n: int, m: int) -> list[FlintPolynomial]:
-    """The result is (state | faults) one sample later: (state A | state F, faults)."""
+    """Return (state | faults) one sample later: (state A | state F, faults)."""
     state = line[:n]
     return window.times(state, window.A, n) + window.times(state, window.F, m) + line[n:]
 
 
 def flint_determinant(route: SecondRoute, matrix: Sequence[Sequence[FlintPolynomial]]) -> FlintPolynomial:
-    """The result is the determinant of a small matrix by expansion along its rows, minors of the lower rows shared."""
+    """Return the determinant of a small matrix by expansion along its rows, minors of the lower rows shared."""
     size = len(matrix)
     minors: dict[tuple[int, ...], FlintPolynomial] = {(): route.context.constant(1)}
     for row in reversed(matrix):

@@ -109,7 +109,7 @@ def _pulse_response(entries: dict[str, Table], ring: Ring, J: int, end: int) -> 
 
 
 def _closed_form(entries: dict[str, Table], powers: Sequence[Table], J: int, zero: Any) -> tuple[list[Table], Table, Table]:
-    """The result is y(-J), ..., y(-1), then B~ and D~, from powers of A."""
+    """Return y(-J), ..., y(-1), then B~ and D~, from powers of A."""
     C, D, G = entries["c"], entries["d"], entries["g"]
     n, nu = len(entries["a"]), len(D[0])
     driven = [_product(entries["f"], entries[f"phi{j}_"], nu, zero) for j in range(J + 1)]
@@ -123,7 +123,7 @@ def _closed_form(entries: dict[str, Table], powers: Sequence[Table], J: int, zer
 
 
 def _covariance(response: dict[int, Table], rows: int) -> Table:
-    """The result is Cov(Yf, Up) of s = past = rows: block (i, l) is Cov(y(k+i), u(k-past+l)) = y(i + past - l)."""
+    """Return Cov(Yf, Up) of s = past = rows: block (i, l) is Cov(y(k+i), u(k-past+l)) = y(i + past - l)."""
     p = len(response[0])
     return [[x for lag in range(rows, 0, -1) for x in response[i + lag][line]] for i in range(rows) for line in range(p)]
 
@@ -141,7 +141,7 @@ def _entries(generators: Sequence[Any], shapes: dict[str, tuple[int, int]]) -> d
 
 
 def _product(left: Table, right: Table, width: int, zero: Any) -> list[list[Any]]:
-    """The result is the matrix product; `width` columns, also where the inner dimension is 0."""
+    """Return the matrix product; `width` columns, also where the inner dimension is 0."""
     return [[sum((x * line[k] for x, line in zip(row, right, strict=True)), zero) for k in range(width)] for row in left]
 
 
@@ -153,7 +153,7 @@ def _sum(tables: Sequence[Table]) -> list[list[Any]]:
 
 
 def _read_back(ring: Ring, f: Any) -> Polynomial:
-    """The result is sympy's polynomial of FLINT's."""
+    """Return sympy's polynomial of FLINT's."""
     from sympy import ZZ
 
     return ring.from_dict({tuple(map(int, exponents)): ZZ(int(c)) for exponents, c in f.to_dict().items()})

@@ -74,7 +74,7 @@ class EchelonRow:
 
 @dataclass(frozen=True)
 class Echelon:
-    """These are the rows of T_s in the order of time, each reduced by the independent ones before it."""
+    """The rows of T_s in the order of time, each reduced by the independent ones before it."""
 
     samples: int
     rows: tuple[EchelonRow, ...]
@@ -87,7 +87,7 @@ class Echelon:
 
 
 def indeterminate_pencil(entries: Indeterminates, F: Table, G: Table) -> list[list[Polynomial]]:
-    """The result is [[q I - A, -F], [C, G]] for the A and C of the entries, (n + p) x (n + columns of F and G)."""
+    """Return [[q I - A, -F], [C, G]] for the A and C of the entries, (n + p) x (n + columns of F and G)."""
     upper = [
         [(entries.q if i == j else 0) - f for j, f in enumerate(row)] + [-f for f in line]
         for i, (row, line) in enumerate(zip(entries.A, F, strict=True))
@@ -96,7 +96,7 @@ def indeterminate_pencil(entries: Indeterminates, F: Table, G: Table) -> list[li
 
 
 def determinant(entries: Indeterminates, matrix: Sequence[Sequence[Polynomial]], minor: Minor) -> Polynomial:
-    """The result is the minor, by sympy's division-free characteristic polynomial."""
+    """Return the minor, by sympy's division-free characteristic polynomial."""
     from sympy.polys.matrices import DomainMatrix  # here, where it is needed
 
     rows, columns = minor
@@ -109,7 +109,7 @@ def determinant(entries: Indeterminates, matrix: Sequence[Sequence[Polynomial]],
 
 
 def minors_of_size(height: int, width: int, size: int) -> list[Minor]:
-    """These are all choices of rows and columns; for size 0 there is the empty minor, which is 1."""
+    """Return all choices of rows and columns; for size 0 there is the empty minor, which is 1."""
     return [(rows, columns) for rows in combinations(range(height), size) for columns in combinations(range(width), size)]
 
 
@@ -134,7 +134,7 @@ def normal_rank(entries: Indeterminates, branch: Branch) -> NormalRank:
 
 
 def finite_zeros(entries: Indeterminates, branch: Branch) -> FiniteZeros:
-    """The result is the gcd of the minors of size n + m, which are not all 0, by Euclid's algorithm; raises Undecided.
+    """Return the gcd of the minors of size n + m, which are not all 0, by Euclid's algorithm; raises Undecided.
 
     Raises ArithmeticError when the pencil has not full column rank on the branch.
     """
@@ -237,7 +237,7 @@ def _tidy_row(
 
 
 def _tidy(entries: Indeterminates, branch: Branch, f: Polynomial, bezout: list[Polynomial]) -> tuple[Polynomial, list[Polynomial]]:
-    """The result is f modulo the equations with its leading zeros in q dropped, so that the leading coefficient is a unit."""
+    """Return f modulo the equations with its leading zeros in q dropped, so that the leading coefficient is a unit."""
     f, *bezout = branch.without_units(branch.joint_reduce([f, *bezout]))
     if f:
         branch.is_zero(_leading(entries, f))
@@ -249,7 +249,7 @@ def _leading(entries: Indeterminates, f: Polynomial) -> Polynomial:
 
 
 def _divided(entries: Indeterminates, f: Polynomial, divisor: Polynomial) -> tuple[int, Polynomial, Polynomial]:
-    """The result is (k, Q, R) with leading**k f = Q divisor + R and R of lower degree in q than the divisor."""
+    """Return (k, Q, R) with leading**k f = Q divisor + R and R of lower degree in q than the divisor."""
     leading, degree = _leading(entries, divisor), len(coefficients(divisor, entries.parameters)) - 1
     quotient, power = entries.ring.zero, 0
     while f and (excess := len(coefficients(f, entries.parameters)) - 1 - degree) >= 0:

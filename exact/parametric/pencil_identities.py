@@ -17,7 +17,7 @@ from .stratification import Indeterminates
 
 
 def flint_pencil(window: FlintWindow, q: FlintPolynomial) -> list[list[FlintPolynomial]]:
-    """The result is [[q I - A, -F], [C, G]]."""
+    """Return [[q I - A, -F], [C, G]]."""
     upper = [[q - f if i == j else -f for j, f in enumerate(row)] + [-f for f in window.F[i]] for i, row in enumerate(window.A)]
     return upper + [[*c, *g] for c, g in zip(window.C, window.G, strict=True)]
 
@@ -107,7 +107,7 @@ def _place(route: SecondRoute) -> int:
 
 
 def _coefficient(route: SecondRoute, f: FlintPolynomial, power: int) -> FlintPolynomial:
-    """The result is the coefficient of q**power."""
+    """Return the coefficient of q**power."""
     q = _place(route)
     terms = {
         tuple(0 if place == q else exponent for place, exponent in enumerate(exponents)): coefficient

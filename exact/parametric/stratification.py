@@ -39,7 +39,7 @@ Row = tuple[int, int]
 
 @dataclass(frozen=True)
 class Indeterminates:
-    """This is ZZ[entries of A, C, F, G][q, ...] and the matrices, as tuples of rows; entry (i, j) of A is named a<i><j>, from 1."""
+    """ZZ[entries of A, C, F, G][q, ...] and the matrices, as tuples of rows; entry (i, j) of A is named a<i><j>, from 1."""
 
     n: int
     p: int
@@ -57,7 +57,7 @@ class Indeterminates:
 
     @property
     def q(self) -> Polynomial:
-        """This is the indeterminate of the pencil [[q I - A, -F], [C, G]]."""
+        """The indeterminate of the pencil [[q I - A, -F], [C, G]]."""
         return self.ring.gens[self.parameters]
 
     def window_row(self, row: Row, samples: int) -> list[Polynomial]:
@@ -112,7 +112,7 @@ class ReducedRow:
 
     @property
     def relation(self) -> tuple[Any, dict[Row, Any]]:
-        """This is (pivot, coefficients) as sympy expressions: pivot * row (degree, output) = sum of coefficients * earlier rows.
+        """(pivot, coefficients) as sympy expressions: pivot * row (degree, output) = sum of coefficients * earlier rows.
 
         Raises ValueError for a row that is independent of the earlier ones.
         """
@@ -147,12 +147,12 @@ class Stratum:
 
     @property
     def left_minimal_indices(self) -> tuple[int, ...]:
-        """These are the degrees of the relations, ascending."""
+        """The degrees of the relations, ascending."""
         return tuple(sorted(row.degree for row in self.ends.values() if row.kind == "relation"))
 
     @property
     def normal_rank(self) -> int:
-        """This is the number of outputs whose rows are independent for ever."""
+        """The number of outputs whose rows are independent for ever."""
         return sum(row.kind == "fault" for row in self.ends.values())
 
     def is_independent(self, row: Row) -> bool:
@@ -161,15 +161,15 @@ class Stratum:
         return end.kind == "fault" or row[0] < end.degree
 
     def independent_rows(self, s: int) -> tuple[Row, ...]:
-        """These are the rows (k, i) of [O_s T_s] that are independent of earlier ones, in the order of time."""
+        """Return the rows (k, i) of [O_s T_s] that are independent of earlier ones, in the order of time."""
         return tuple((k, i) for k in range(s) for i in sorted(self.ends) if self.is_independent((k, i)))
 
     def window_rank(self, s: int) -> int:
-        """The result is rank [O_s T_s]."""
+        """Return rank [O_s T_s]."""
         return len(self.independent_rows(s))
 
     def gap(self, s: int) -> int:
-        """The result is rank [O_(s+1) T_(s+1)] - rank [O_s T_s]."""
+        """Return rank [O_(s+1) T_(s+1)] - rank [O_s T_s]."""
         return self.window_rank(s + 1) - self.window_rank(s)
 
     def contains(self, values: Sequence[Any]) -> bool:
@@ -195,7 +195,7 @@ class Stratification(Shown):
 
     @property
     def parameters(self) -> tuple[Any, ...]:
-        """These are the entries of A, C, F, G, row by row, as sympy symbols."""
+        """The entries of A, C, F, G, row by row, as sympy symbols."""
         return tuple(self.entries.ring.symbols[: self.entries.parameters])
 
     def locate(self, values: Sequence[Any]) -> Stratum:
@@ -265,7 +265,7 @@ def stratify(n: int, p: int, m: int, windows: int | None = None) -> Stratificati
 
 @dataclass(frozen=True)
 class _Working:
-    """This is a row during the elimination: `parts` are its state part, its fault part and its coefficients."""
+    """A row during the elimination: `parts` are its state part, its fault part and its coefficients."""
 
     row: Row
     state: list[Polynomial]
@@ -318,7 +318,7 @@ def _one_sample_later(entries: Indeterminates, work: _Working) -> _Working:
 
 
 def _cleared(work: _Working, earlier: _Working) -> _Working:
-    """The result is a combination of the row and an earlier one that has nothing at the pivot of the latter."""
+    """Return a combination of the row and an earlier one that has nothing at the pivot of the latter."""
     assert earlier.pivot is not None
     entry = _part(work, earlier.kind)[earlier.pivot]
     if not entry:
@@ -334,7 +334,7 @@ def _cleared(work: _Working, earlier: _Working) -> _Working:
 
 
 def _tidy(branch: Branch, work: _Working) -> _Working:
-    """The result is the row modulo the equations, divided by what units divide all of it."""
+    """Return the row modulo the equations, divided by what units divide all of it."""
     rows = sorted(work.coefficients)
     vector = [*work.state, *work.fault, *(work.coefficients[row] for row in rows)]
     vector = branch.without_units(branch.joint_reduce(vector))
@@ -344,7 +344,7 @@ def _tidy(branch: Branch, work: _Working) -> _Working:
 
 
 def certified(entries: Indeterminates, branch: Branch, work: _Working) -> ReducedRow:
-    """The result is the row with the congruences that prove it, found by dividing the whole combination by the equations."""
+    """Return the row with the congruences that prove it, found by dividing the whole combination by the equations."""
     degree, output = work.row
     difference = combined(entries, work.coefficients.items(), degree + 1)
     for column, f in enumerate([*work.state, *work.fault]):
@@ -368,7 +368,7 @@ def certified(entries: Indeterminates, branch: Branch, work: _Working) -> Reduce
 
 
 def combined(entries: Indeterminates, coefficients: Iterable[tuple[Row, Polynomial]], samples: int) -> list[Polynomial]:
-    """The result is sum of coefficients * rows of the window of so many samples."""
+    """Return sum of coefficients * rows of the window of so many samples."""
     total = [entries.ring.zero] * (entries.n + samples * entries.m)
     for row, coefficient in coefficients:
         total = [x + coefficient * y for x, y in zip(total, entries.window_row(row, samples), strict=True)]
@@ -376,5 +376,5 @@ def combined(entries: Indeterminates, coefficients: Iterable[tuple[Row, Polynomi
 
 
 def times(row: Sequence[Polynomial], matrix: Sequence[Sequence[Polynomial]], width: int, ring: Ring) -> list[Polynomial]:
-    """The result is the row vector times the matrix."""
+    """Return the row vector times the matrix."""
     return [sum((x * line[j] for x, line in zip(row, matrix, strict=True)), ring.zero) for j in range(width)]

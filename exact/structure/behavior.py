@@ -31,7 +31,7 @@ MOST_SAMPLES = 24
 
 @dataclass(frozen=True)
 class Separation:
-    """This is a word of the maker that the other system cannot make: `x0` n x 1, `v` window x m, `row` a kernel row of the other."""
+    """A word of the maker that the other system cannot make: `x0` n x 1, `v` window x m, `row` a kernel row of the other."""
 
     window: int
     x0: Matrix
@@ -41,7 +41,7 @@ class Separation:
 
 @dataclass(frozen=True)
 class Word:
-    """This is what the system `of`, "first" or "second", makes and the other cannot: `separation` with the outputs, window x p."""
+    """What the system `of`, "first" or "second", makes and the other cannot: `separation` with the outputs, window x p."""
 
     of: str
     maker: ResidualSystem
@@ -92,13 +92,13 @@ class Comparison(Shown):
 
     @property
     def first_difference(self) -> int | None:
-        """This is the least number of samples on which the restricted behaviours differ, None where they are equal."""
+        """The least number of samples on which the restricted behaviours differ, None where they are equal."""
         found = [s.window for s in (self.first_not_in_second, self.second_not_in_first) if s is not None]
         return min(found, default=None)
 
     @property
     def word(self) -> Word | None:
-        """This is the shortest word of one system that the other cannot make; None where they are equivalent."""
+        """The shortest word of one system that the other cannot make; None where they are equivalent."""
         candidates = [("first", self.first.system, self.first_not_in_second), ("second", self.second.system, self.second_not_in_first)]
         words = [(of, maker, found) for of, maker, found in candidates if found is not None]
         shortest = min(words, key=lambda candidate: candidate[2].window, default=None)
@@ -115,15 +115,15 @@ class Comparison(Shown):
         return f"different: first on {counted(self.first_difference, 'sample')}, the same on fewer"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
-        """The result is the verdict, and the word that separates the two, as (name, value) pairs."""
+        """Yield the verdict, and the word that separates the two, as (name, value) pairs."""
         yield from (("", text) for text in self.lines()[1:])
 
     def summary(self) -> str:
-        """The result is the verdict, and the word that separates the two; of a long one the first samples."""
+        """Return the verdict, and the word that separates the two; of a long one the first samples."""
         return "\n".join(self.lines())
 
     def lines(self, first: str = "the first system", second: str = "the second system", *, samples: int = MOST_SAMPLES) -> list[str]:
-        """The result is what `faultspace compare` prints, with these names of the two systems, and at most so many samples of the word."""
+        """Return what `faultspace compare` prints, with these names of the two systems, and at most so many samples of the word."""
         word = self.word
         if word is None:
             return [self.title]
@@ -146,14 +146,14 @@ class Comparison(Shown):
         return [*result, f"every word r of {other} satisfies N(q) r = 0 with N(q) = [ {',  '.join(polynomials)} ]"]
 
     def to_json(self) -> dict[str, Any]:
-        """The result is the verdict and the separating word: what `faultspace compare --json --word` prints."""
+        """Return the verdict and the separating word: what `faultspace compare --json --word` prints."""
         word = self.word
         return {"equivalent": self.equivalent, "first_difference": self.first_difference, "word": None if word is None else word.to_json()}
 
 
 @lru_cache(maxsize=4)  # whoever compares two systems asks for both directions, and whoever certifies it asks again
 def separation(inner: ResidualSystem, outer: KernelRepresentation) -> Separation | None:
-    """The result is the shortest word of `inner` that is not a word of `outer`, or None where B(inner) is contained in B(outer)."""
+    """Return the shortest word of `inner` that is not a word of `outer`, or None where B(inner) is contained in B(outer)."""
     _comparable(inner, outer.system)
     for row in outer.rows:
         left = horner(row.coefficients, inner)

@@ -26,7 +26,7 @@ from .kernel_rows import KernelRepresentation, column_conditions, kernel_of
 
 @dataclass(frozen=True, repr=False)
 class FaultSpace(Shown):
-    """This is the space of all fault columns [f; g] that explain no more than the system does, on a window or in the limit.
+    """The space of all fault columns [f; g] that explain no more than the system does, on a window or in the limit.
 
     `basis` is n_z x (n + p) in reduced row echelon form, with rows [f' g'], so that equal spaces have equal bases; `F` (n x n_z) and `G` (p
     x n_z) are the columns. `window` is a number of samples, None for the limit; `exact_from`, which is lag + 1, or 1 where there is no
@@ -47,7 +47,7 @@ class FaultSpace(Shown):
 
     @property
     def dimension(self) -> int:
-        """This is n_z at this window."""
+        """N_z at this window."""
         return self.basis.nrows
 
     @property
@@ -68,12 +68,12 @@ class FaultSpace(Shown):
 
     @property
     def F(self) -> Matrix:
-        """This is Fhat, n x n_z."""
+        """Fhat, n x n_z."""
         return self.basis.columns(range(self.system.n)).transposed()
 
     @property
     def G(self) -> Matrix:
-        """This is Ghat, p x n_z."""
+        """Ghat, p x n_z."""
         return self.basis.columns(range(self.system.n, self.system.n + self.system.p)).transposed()
 
     @property
@@ -101,14 +101,14 @@ class FaultSpace(Shown):
 
 
 def from_kernel_rows(rows: Iterable[Matrix], A: Matrix, C: Matrix) -> Matrix:
-    """The result is the basis rows [f' g'] of the columns that all rows ((mu + 1) x p coefficients each) annihilate, in echelon form."""
+    """Return the basis rows [f' g'] of the columns that all rows ((mu + 1) x p coefficients each) annihilate, in echelon form."""
     nothing = Matrix.zero(A.field, 0, A.nrows + C.nrows)
     conditions = stacked(nothing, *(column_conditions(row, A, C) for row in rows))
     return row_echelon(right_null_space(conditions).transposed()).matrix
 
 
 def fault_space(kernel: KernelRepresentation | System, window: int | None = None) -> FaultSpace:
-    """The result is the solution space of problem (11) on `window` samples, or its limit Z, of which every equivalent F and G is made.
+    """Return the solution space of problem (11) on `window` samples, or its limit Z, of which every equivalent F and G is made.
 
     `kernel` is a KernelRepresentation of a system with n states and p outputs, or a System, of which it is computed; `window` is a number
     of samples >= 0, or None for the limit, which is reached from lag + 1 samples on. A column z = [f; g] is in the space iff every kernel
@@ -129,7 +129,7 @@ def fault_space(kernel: KernelRepresentation | System, window: int | None = None
 
 
 def fault_space_dimension(kernel: KernelRepresentation | System, window: int | None = None) -> int:
-    """The result is the dimension of the space of problem (11), found without the space.
+    """Return the dimension of the space of problem (11), found without the space.
 
     It is n + p less the sum of mu + 1 over the kernel rows of degree mu below the window. `kernel` is a KernelRepresentation or a System;
     `window` is a number of samples, None for the limit. Source: [G25] problem (11), [F75] for the indices.
@@ -147,7 +147,7 @@ def fault_space_dimension(kernel: KernelRepresentation | System, window: int | N
 
 
 def with_pair(space: FaultSpace | KernelRepresentation | System, P: object) -> ResidualSystem:
-    """The result is the system (A, Fhat P, C, Ghat P) whose fault matrices are the columns of a fault space combined by P.
+    """Return the system (A, Fhat P, C, Ghat P) whose fault matrices are the columns of a fault space combined by P.
 
     `space` is a FaultSpace, or a system, whose limit is taken; P is n_z x k, what `Matrix.of` takes, over the same field; `judge` says
     whether the result is equivalent. Source: [G25] Theorem 3.

@@ -29,7 +29,7 @@ class AmbiguousWord:
 
 
 def delay_known_state(kernel: KernelRepresentation | System) -> int | None:
-    """The result is the least l with which r(0), ..., r(l) determine v(0) when x(0) is known, a number of samples; None where none do.
+    """Return the least l with which r(0), ..., r(l) determine v(0) when x(0) is known, a number of samples; None where none do.
 
     It is the least l with rank T_(l+1) - rank T_l = m, and exists iff the system is left-invertible; it is 0 where there is no fault.
     `kernel` is a KernelRepresentation, or a System, of which it is computed. Source: [SM69].
@@ -54,7 +54,7 @@ def delay_known_state(kernel: KernelRepresentation | System) -> int | None:
 
 
 def delay_unknown_state(kernel: KernelRepresentation | System) -> int | None:
-    """The result is the least number l with which r(0), ..., r(l) determine v(0) whatever x(0) is; None where none do.
+    """Return the least number l with which r(0), ..., r(l) determine v(0) whatever x(0) is; None where none do.
 
     It is a number of samples, at most n, and 0 where there is no fault. A recursion modulo a prime finds it and shows that fewer samples do
     not do; that l samples do is decided exactly. `kernel` is a KernelRepresentation, or a System, of which it is computed. Source: [HP98],
@@ -78,7 +78,7 @@ def delay_unknown_state(kernel: KernelRepresentation | System) -> int | None:
 
 
 def largest_output_nulling(system: ResidualSystem) -> Matrix:
-    """The result is V* as a column basis (n x dim): the limit of the chain V_0 = K^n, V_(j+1) = {x : some v has C x + G v = 0, A x + F v in
+    """Return V* as a column basis (n x dim): the limit of the chain V_0 = K^n, V_(j+1) = {x : some v has C x + G v = 0, A x + F v in
     V_j}.
     """
     subspace = Matrix.identity(system.field, system.n)
@@ -90,7 +90,7 @@ def largest_output_nulling(system: ResidualSystem) -> Matrix:
 
 
 def left_inverse(system: System, delay: int, *, known_state: bool) -> Matrix | None:
-    """The result is a matrix of shape m x p(delay + 1) that takes r(0), ..., r(delay) to v(0), or None where there is none.
+    """Return a matrix of shape m x p(delay + 1) that takes r(0), ..., r(delay) to v(0), or None where there is none.
 
     With `known_state` the outputs are those from x(0) = 0, else they come from any initial state; `delay` is a number of samples >= 0.
     Source: [SM69] for a known state, [K11] for an unknown one.
@@ -111,7 +111,7 @@ def left_inverse(system: System, delay: int, *, known_state: bool) -> Matrix | N
 
 
 def ambiguous_word(system: ResidualSystem, samples: int, *, known_state: bool) -> AmbiguousWord | None:
-    """The result is a word of that many samples with v(0) != 0 and zero output, from x0 = 0 when the state is known; None where there is
+    """Return a word of that many samples with v(0) != 0 and zero output, from x0 = 0 when the state is known; None where there is
     none.
     """
     if samples == 0:
@@ -136,7 +136,7 @@ def _zero_output_pairs(system: ResidualSystem, target: Matrix) -> Matrix:
 
 
 def _first_determined(system: ResidualSystem) -> int:
-    """The result is the least l such that v(0) is determined by r(0..l), or n + 1; by the recursion V_j, meant for prime fields."""
+    """Return the least l such that v(0) is determined by r(0..l), or n + 1; by the recursion V_j, meant for prime fields."""
     subspace = Matrix.identity(system.field, system.n)
     for delay in range(system.n + 1):
         pairs = _zero_output_pairs(system, subspace)

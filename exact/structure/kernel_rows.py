@@ -40,7 +40,7 @@ from .zero_output import ZeroOutputChain, zero_output_chain
 
 @dataclass(frozen=True)
 class KernelRow:
-    """This is N(q) = c_0 + c_1 q + ... + c_mu q^mu: `coefficients` is (mu + 1) x p, row k holding c_k, coprime integers over Q."""
+    """N(q) = c_0 + c_1 q + ... + c_mu q^mu: `coefficients` is (mu + 1) x p, row k holding c_k, coprime integers over Q."""
 
     pivot: int
     coefficients: Matrix
@@ -53,7 +53,7 @@ class KernelRow:
 
 @dataclass(frozen=True, repr=False)
 class KernelRepresentation(Shown):
-    """This is a minimal kernel representation N(q) r = 0 of the output behaviour of a system: all that its windows can tell.
+    """A minimal kernel representation N(q) r = 0 of the output behaviour of a system: all that its windows can tell.
 
     The system has p outputs. `rows` ascend by degree; each has `coefficients` of shape (mu + 1) x p and the output of its `pivot`. Their
     degrees are the left minimal indices, the largest is the `lag`, a number of samples, and p less their number is the normal rank;
@@ -74,12 +74,12 @@ class KernelRepresentation(Shown):
 
     @cached_property
     def left_minimal_indices(self) -> tuple[int, ...]:
-        """These are the degrees of the rows, ascending."""
+        """The degrees of the rows, ascending."""
         return tuple(row.degree for row in self.rows)
 
     @property
     def normal_rank(self) -> int:
-        """This is r, the normal rank of C (qI - A)^-1 F + G."""
+        """R, the normal rank of C (qI - A)^-1 F + G."""
         return self.system.p - len(self.rows)
 
     @property
@@ -88,12 +88,12 @@ class KernelRepresentation(Shown):
         return max(self.left_minimal_indices, default=0)
 
     def gap(self, k: int) -> int:
-        """The result is rank [O_(k+1) T_(k+1)] - rank [O_k T_k] = p - #{mu <= k}. Raises InvalidInput unless k is an integer >= 0."""
+        """Return rank [O_(k+1) T_(k+1)] - rank [O_k T_k] = p - #{mu <= k}. Raises InvalidInput unless k is an integer >= 0."""
         natural(k, "k")
         return self.system.p - sum(1 for mu in self.left_minimal_indices if mu <= k)
 
     def rank(self, s: int) -> int:
-        """The result is rank [O_s T_s] = s r + sum min(s, mu). Raises InvalidInput unless s is an integer >= 0."""
+        """Return rank [O_s T_s] = s r + sum min(s, mu). Raises InvalidInput unless s is an integer >= 0."""
         natural(s, "s")
         return s * self.normal_rank + sum(min(s, mu) for mu in self.left_minimal_indices)
 
@@ -143,7 +143,7 @@ class Horner:
 
 
 def horner_states(coefficients: Matrix, A: Matrix, C: Matrix) -> tuple[Matrix, ...]:
-    """These are X_0, ..., X_(mu+1), each 1 x n, with X_k = N_k C + X_(k+1) A and X_(mu+1) = 0."""
+    """Return X_0, ..., X_(mu+1), each 1 x n, with X_k = N_k C + X_(k+1) A and X_(mu+1) = 0."""
     states = [Matrix.zero(A.field, 1, A.nrows)]
     for k in reversed(range(coefficients.nrows)):
         states.append(coefficients.rows([k]) @ C + states[-1] @ A)
@@ -151,13 +151,13 @@ def horner_states(coefficients: Matrix, A: Matrix, C: Matrix) -> tuple[Matrix, .
 
 
 def horner(coefficients: Matrix, system: ResidualSystem) -> Horner:
-    """The result is the row with these (mu + 1) x p coefficients times [O_(mu+1) T_(mu+1)] of a system, which is not built."""
+    """Return the row with these (mu + 1) x p coefficients times [O_(mu+1) T_(mu+1)] of a system, which is not built."""
     first, *later = horner_states(coefficients, system.A, system.C)
     return Horner(first, coefficients @ system.G + stacked(*later) @ system.F)
 
 
 def column_conditions(coefficients: Matrix, A: Matrix, C: Matrix) -> Matrix:
-    """The result is (mu + 1) x (n + p), row k = [X_(k+1), N_k]: a fault column z = [f; g] is annihilated iff every row kills it."""
+    """Return (mu + 1) x (n + p), row k = [X_(k+1), N_k]: a fault column z = [f; g] is annihilated iff every row kills it."""
     return beside(stacked(*horner_states(coefficients, A, C)[1:]), coefficients)
 
 
@@ -167,7 +167,7 @@ def annihilates(row: KernelRow, system: ResidualSystem) -> bool:
 
 
 def kernel_representation(system: System) -> KernelRepresentation:
-    """The result is the minimal kernel representation of the output behaviour of a system, for every system over every field.
+    """Return the minimal kernel representation of the output behaviour of a system, for every system over every field.
 
     `system` is a System of either kind with p outputs; B and D play no part. Over Q and Q(a) the shape of the rows comes from a prime,
     their coefficients from one exact solve by p-adic lifting [D82], and an exact check has the last word. Source: [F75], [W91].
@@ -188,7 +188,7 @@ def kernel_representation(system: System) -> KernelRepresentation:
 
 
 def kernel_of(given: System | KernelRepresentation, where: str = "system") -> KernelRepresentation:
-    """The result is the kernel representation that is given, or that of a System. Raises InvalidInput for anything else."""
+    """Return the kernel representation that is given, or that of a System. Raises InvalidInput for anything else."""
     return given if isinstance(given, KernelRepresentation) else kernel_representation(residual_of(given, where))
 
 
@@ -205,7 +205,7 @@ def _misleading_primes(system: ResidualSystem) -> int:
 
 
 def _rows(system: ResidualSystem, picture: Image) -> tuple[KernelRow, ...] | None:
-    """These are the rows whose shape the image shows, or None when the exact check refutes that shape, or shows none."""
+    """Return the rows whose shape the image shows, or None when the exact check refutes that shape, or shows none."""
     field = system.field
     if isinstance(field, PrimeField):
         leads = _leads(zero_output_chain(system), system.p)
@@ -235,7 +235,7 @@ def _all_annihilate(relations: Sequence[list[list[fmpz]]], system: ResidualSyste
 
 
 def _leads(chain: ZeroOutputChain, p: int) -> list[tuple[int, int]]:
-    """The result is (mu, output) for every output that depends, from sample mu on, on earlier ones; ascending."""
+    """Return (mu, output) for every output that depends, from sample mu on, on earlier ones; ascending."""
     leads: list[tuple[int, int]] = []
     seen: set[int] = set()
     for k, profile in enumerate(chain.profiles):

@@ -56,7 +56,7 @@ class Reduced:
 
 @dataclass(frozen=True)
 class ModularRows:
-    """These are the rows of a minimal basis, ascending by (degree mu, output) of their leads, k of them.
+    """The rows of a minimal basis, ascending by (degree mu, output) of their leads, k of them.
 
     `coefficients` are N_0, N_1, ... (k x p), `states` X_1, X_2, ... (k x n), the last of which is zero, `reduced` is the system in which
     they were found, and `point` is infinity where the normal rank is that of G.
@@ -70,12 +70,12 @@ class ModularRows:
 
     @property
     def degrees(self) -> tuple[int, ...]:
-        """These are the left minimal indices, ascending."""
+        """The left minimal indices, ascending."""
         return tuple(mu for mu, _ in self.leads)
 
     @property
     def pivots(self) -> tuple[int, ...]:
-        """These are the outputs of the leads, at which the leading coefficients are triangular."""
+        """The outputs of the leads, at which the leading coefficients are triangular."""
         return tuple(output for _, output in self.leads)
 
     @cached_property

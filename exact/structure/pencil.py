@@ -43,7 +43,7 @@ class NullPolynomial:
 
 @dataclass(frozen=True)
 class PencilParts:
-    """This is P(q) = constant + q slope, both (n + p) x (n + m)."""
+    """P(q) = constant + q slope, both (n + p) x (n + m)."""
 
     constant: Matrix
     slope: Matrix
@@ -55,7 +55,7 @@ def right_minimal_indices(system: ResidualSystem) -> tuple[int, ...]:
 
 
 def infinite_zero_orders(kernel: KernelRepresentation) -> tuple[int, ...]:
-    """These are the orders of the infinite zeros, ascending, one per unit of normal rank, zeros included."""
+    """Return the orders of the infinite zeros, ascending, one per unit of normal rank, zeros included."""
     orders: list[int] = []
     k, previous = 0, 0
     while len(orders) < kernel.normal_rank:
@@ -79,14 +79,14 @@ def invariant_zero_polynomial(kernel: KernelRepresentation, degree: int) -> Poly
 
 
 def zeros_alone(kernel: KernelRepresentation) -> Poly:
-    """The result is the invariant zero polynomial, where nothing else is asked of the system: the degree is what the indices leave of n."""
+    """Return the invariant zero polynomial, where nothing else is asked of the system: the degree is what the indices leave of n."""
     system, infinite = kernel.system, infinite_zero_orders(kernel)
     finite = system.n - sum(kernel.left_minimal_indices) - sum(right_minimal_indices(system)) - sum(infinite)
     return invariant_zero_polynomial(kernel, finite)
 
 
 def zero_dynamics_polynomial(system: ResidualSystem) -> Poly:
-    """The result is the characteristic polynomial, monic, of the motion on V*/(V* inter S*) under zero output."""
+    """Return the characteristic polynomial, monic, of the motion on V*/(V* inter S*) under zero output."""
     nulling = largest_output_nulling(system)
     reachable = chain_from_rest(system).last_subspace
     common = right_null_space(beside(nulling, -reachable)).rows(range(nulling.ncols))
@@ -106,7 +106,7 @@ def zero_dynamics_polynomial(system: ResidualSystem) -> Poly:
 
 
 def characteristic_polynomial(matrix: Matrix) -> Poly:
-    """The result is det(qI - M), monic."""
+    """Return det(qI - M), monic."""
     field, size = matrix.field, matrix.nrows
     if isinstance(field, (Rationals, PrimeField)):
         poly = matrix.flint.charpoly()
@@ -125,7 +125,7 @@ def characteristic_polynomial(matrix: Matrix) -> Poly:
 
 
 def right_null_polynomial(system: ResidualSystem) -> NullPolynomial | None:
-    """The result is a polynomial vector in the right kernel of the pencil, of least degree, or None for a left-invertible system."""
+    """Return a polynomial vector in the right kernel of the pencil, of least degree, or None for a left-invertible system."""
     rows = kernel_representation(system.transposed()).rows
     if not rows:
         return None
@@ -144,24 +144,24 @@ def pencil_parts(system: ResidualSystem) -> PencilParts:
 
 
 def pencil(system: ResidualSystem) -> PolyMatrix:
-    """The result is P(q) as a matrix of Poly, (n + p) x (n + m)."""
+    """Return P(q) as a matrix of Poly, (n + p) x (n + m)."""
     parts = pencil_parts(system)
     return _linear(parts.constant, parts.slope)
 
 
 def reversed_pencil(system: ResidualSystem) -> PolyMatrix:
-    """The result is t P(1/t) = [[I - tA, -tF], [tC, tG]]: its zeros at t = 0 are those of P at infinity."""
+    """Return t P(1/t) = [[I - tA, -tF], [tC, tG]]: its zeros at t = 0 are those of P at infinity."""
     parts = pencil_parts(system)
     return _linear(parts.slope, parts.constant)
 
 
 def finite_diagonal(system: ResidualSystem) -> SmithDiagonal:
-    """The result is a diagonal form of P(q) with unimodular multipliers."""
+    """Return a diagonal form of P(q) with unimodular multipliers."""
     return polynomials.smith_diagonal(pencil(system), system.n + system.p, system.n + system.m, system.field.element(1))
 
 
 def infinite_diagonal(system: ResidualSystem) -> SmithDiagonal:
-    """The result is a diagonal form of the reversed pencil with unimodular multipliers."""
+    """Return a diagonal form of the reversed pencil with unimodular multipliers."""
     return polynomials.smith_diagonal(reversed_pencil(system), system.n + system.p, system.n + system.m, system.field.element(1))
 
 

@@ -23,7 +23,7 @@ from .pencil import infinite_zero_orders, invariant_zero_polynomial, right_minim
 
 @dataclass(frozen=True, repr=False)
 class Structure(Shown):
-    """This is everything that is known exactly about a system with n states, m faults and p outputs; `analyze` makes it.
+    """Everything that is known exactly about a system with n states, m faults and p outputs; `analyze` makes it.
 
     `kernel` has the lag (a number of samples), the left minimal indices and the window ranks; `right_minimal_indices`,
     `infinite_zero_orders` and `invariant_zero_polynomial` (ascending coefficients) are those of the pencil [[qI - A, -F], [C, G]]; `zeta`
@@ -48,12 +48,12 @@ class Structure(Shown):
 
     @property
     def system(self) -> ResidualSystem:
-        """This is the system that the structure is of."""
+        """The system that the structure is of."""
         return self.kernel.system
 
     @property
     def finite_zeros(self) -> int:
-        """This is n_f, the number of finite invariant zeros with multiplicity."""
+        """N_f, the number of finite invariant zeros with multiplicity."""
         return len(self.invariant_zero_polynomial) - 1
 
     @property
@@ -72,7 +72,7 @@ class Structure(Shown):
         return self.system.sizes
 
     def sheet(self) -> Iterator[tuple[str, str]]:
-        """The result is what `faultspace inspect` prints, as (name, value) pairs."""
+        """Yield what `faultspace inspect` prints, as (name, value) pairs."""
         kernel, n = self.kernel, self.system.n
         yield "pencil P(q) = [[qI - A, -F], [C, G]]", ""
         yield "normal rank r", f"{kernel.normal_rank} of at most {min(self.system.m, self.system.p)}"
@@ -98,7 +98,7 @@ class Structure(Shown):
         yield from named_matrix("Ghat", space.G)
 
     def to_json(self) -> dict[str, Any]:
-        """The result is the object that `faultspace inspect --json` prints."""
+        """Return the object that `faultspace inspect --json` prints."""
         system, kernel = self.system, self.kernel
         windows = range(1, system.n + 4)
         return {

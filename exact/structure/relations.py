@@ -28,7 +28,7 @@ Lead = tuple[int, int]
 
 
 def basis_rows(leads: Sequence[Lead], p: int, windows: int) -> list[tuple[int, int]]:
-    """The result is (k, i) of the rows of [O_s T_s], s = windows, that are independent of the rows above them."""
+    """Return (k, i) of the rows of [O_s T_s], s = windows, that are independent of the rows above them."""
     starts = {output: mu for mu, output in leads}
     return [(k, i) for k in range(windows) for i in range(p) if k < starts.get(i, windows)]
 

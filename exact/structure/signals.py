@@ -27,7 +27,7 @@ from .fault_columns import from_kernel_rows
 
 @dataclass(frozen=True, repr=False)
 class Trajectory(Shown):
-    """This is a trajectory of N steps: `states` x(0..N), (N+1) x n, `faults` v(0..N-1), N x m, and `residuals` r(0..N-1), N x p.
+    """A trajectory of N steps: `states` x(0..N), (N+1) x n, `faults` v(0..N-1), N x m, and `residuals` r(0..N-1), N x p.
 
     `simulate` makes it; time runs down the rows, and all three are over the field of the system. Source: [G25] section IV for what data it
     stands for. Raises nothing by itself.
@@ -67,7 +67,7 @@ class Trajectory(Shown):
 
 
 def simulate(system: System, x0: object, v: object) -> Trajectory:
-    """The result is the exact trajectory of a residual system from x0 (n x 1) under the fault v (N x m, time down the rows).
+    """Return the exact trajectory of a residual system from x0 (n x 1) under the fault v (N x m, time down the rows).
 
     x0 and v are of type Matrix over the field of the system, or nested lists; of a system with inputs it is the trajectory for u = 0.
     Source: [G25] section IV.
@@ -95,7 +95,7 @@ def simulate(system: System, x0: object, v: object) -> Trajectory:
 
 
 def hankel(signal: Matrix, s: int) -> Matrix:
-    """The result is the block Hankel matrix with s block rows of a time-major signal (N x q): qs x (N - s + 1). Raises InvalidInput if N <
+    """Return the block Hankel matrix with s block rows of a time-major signal (N x q): qs x (N - s + 1). Raises InvalidInput if N <
     s.
     """
     s = natural(s, "window")
@@ -107,13 +107,13 @@ def hankel(signal: Matrix, s: int) -> Matrix:
 
 
 def excitation_matrix(trajectory: Trajectory, s: int) -> Matrix:
-    """The result is [X; V_s], (n + ms) x (N - s + 1). Raises InvalidInput if there are fewer than s samples."""
+    """Return [X; V_s], (n + ms) x (N - s + 1). Raises InvalidInput if there are fewer than s samples."""
     faults = hankel(trajectory.faults, s)
     return stacked(trajectory.states.rows(range(faults.ncols)).transposed(), faults)
 
 
 def persistency(signal: Matrix) -> int:
-    """The result is the largest order s with a block Hankel matrix of full row rank, which is 0 where there is none."""
+    """Return the largest order s with a block Hankel matrix of full row rank, which is 0 where there is none."""
     order = 0
     while order < signal.nrows and rank(hankel(signal, order + 1)) == signal.ncols * (order + 1):
         order += 1
@@ -123,7 +123,7 @@ def persistency(signal: Matrix) -> int:
 
 
 def data_fault_space(residuals: Matrix, A: Matrix, C: Matrix, s: int) -> Matrix:
-    """The result is the fault space as data tell it: problem (11) with the left null space of their Hankel matrix for kernel rows.
+    """Return the fault space as data tell it: problem (11) with the left null space of their Hankel matrix for kernel rows.
 
     `residuals` is N x p (time down the rows), A is n x n, C is p x n, all of one field, and s is a number of samples. The rows [f' g'] of
     the result, n_z x (n + p), are in reduced row echelon form. Where [X; V_s] has full row rank they are those of `fault_space` at window

@@ -29,16 +29,16 @@ class ZeroOutputChain:
     last_subspace: Matrix
 
     def gap(self, k: int) -> int:
-        """The result is rank [O_(k+1) T_(k+1)] - rank [O_k T_k]."""
+        """Return rank [O_(k+1) T_(k+1)] - rank [O_k T_k]."""
         return len(self.profiles[min(k, len(self.profiles) - 1)])
 
     def rank(self, s: int) -> int:
-        """The result is rank [O_s T_s], from rest rank T_s."""
+        """Return rank [O_s T_s], from rest rank T_s."""
         return sum(self.gap(k) for k in range(s))
 
     @property
     def final_gap(self) -> int:
-        """This is the gap of all large windows: the normal rank."""
+        """The gap of all large windows: the normal rank."""
         return len(self.profiles[-1])
 
 

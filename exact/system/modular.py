@@ -40,7 +40,7 @@ def primes_below(start: int) -> Iterator[int]:
 
 
 def image(system: ResidualSystem, *, largest: int = LARGEST_PRIME) -> Image:
-    """The result is the image at the largest good prime up to `largest`: no denominator vanishes, and f has a simple root."""
+    """Return the image at the largest good prime up to `largest`: no denominator vanishes, and f has a simple root."""
     if isinstance(system.field, PrimeField):
         return Image(system, system.field.p, None)
     for prime in primes_below(largest):
@@ -54,7 +54,7 @@ def image(system: ResidualSystem, *, largest: int = LARGEST_PRIME) -> Image:
 
 
 def simple_root(field: NumberField, prime: int) -> int | None:
-    """The result is a simple root of the minimal polynomial modulo the prime, or None where it has none."""
+    """Return a simple root of the minimal polynomial modulo the prime, or None where it has none."""
     coefficients = [int(c) for c in field.integer_polynomial.coeffs()]
     if coefficients[-1] % prime == 0 or any(c.denominator % prime == 0 for c in field.minimal_polynomial):
         return None
@@ -64,7 +64,7 @@ def simple_root(field: NumberField, prime: int) -> int | None:
 
 
 def reduce_matrix(matrix: Matrix, prime: int, root: int | None) -> Matrix | None:
-    """The result is the matrix modulo the prime, a going to the root; None when a denominator vanishes. Over GF(p) it is the matrix."""
+    """Return the matrix modulo the prime, a going to the root; None when a denominator vanishes. Over GF(p) it is the matrix."""
     if isinstance(matrix.field, PrimeField):
         return matrix
     target = PrimeField(prime)
@@ -86,7 +86,7 @@ def reduce_matrix(matrix: Matrix, prime: int, root: int | None) -> Matrix | None
 
 
 def reduce_element(x: Any, field: Any, prime: int, root: int | None) -> int | None:
-    """The result is one element modulo the prime as an integer in 0..prime-1; None when a denominator vanishes."""
+    """Return one element modulo the prime as an integer in 0..prime-1; None when a denominator vanishes."""
     coordinates = field.coordinates(x) if isinstance(field, NumberField) else [x]
     value = 0
     for c in reversed(coordinates):

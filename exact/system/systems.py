@@ -28,7 +28,7 @@ from ..algebra.validation import MAX_DIMENSION, natural
 
 
 class System(Shown):
-    """This is the exact system x(k+1) = A x + B u + F v, y = C x + D u + G v with n states, m faults v, p outputs, n_u inputs u.
+    """The exact system x(k+1) = A x + B u + F v, y = C x + D u + G v with n states, m faults v, p outputs, n_u inputs u.
 
     A is n x n, F n x m, C p x n, G p x m, B n x n_u, D p x n_u: nested lists of integers, strings such as "1/2" and Fractions, numpy arrays
     of integers, or sympy matrices. The system has them again, of type Matrix, as `.A`, `.F`, `.C`, `.G`, `.B` and `.D`. Floats are refused,
@@ -88,7 +88,7 @@ class System(Shown):
 
     @property
     def field(self) -> Field:
-        """This is the field of the entries."""
+        """The field of the entries."""
         return self.residual.A.field
 
     @property
@@ -118,7 +118,7 @@ class System(Shown):
 
     @property
     def title(self) -> str:
-        """This is the same as `sizes`."""
+        """The same as `sizes`."""
         return self.sizes
 
     def sheet(self) -> Iterator[tuple[str, str]]:
@@ -132,7 +132,7 @@ class System(Shown):
         return ", ".join(f"{name}={getattr(self, name)}" for name in names) + where
 
     def to_json(self) -> dict[str, Any]:
-        """The result is the dict that exact files hold."""
+        """Return the dict that exact files hold."""
         result: dict[str, Any] = {} if self.field == QQ else {"field": self.field.to_json()}
         if 0 in (self.n, self.m, self.p):
             result |= {"n": self.n, "m": self.m, "p": self.p}
@@ -141,7 +141,7 @@ class System(Shown):
 
 @dataclass(frozen=True, init=False, repr=False)
 class ResidualSystem(System):
-    """This is the system x(k+1) = A x(k) + F v(k), r(k) = C x(k) + G v(k) without inputs, exact over one field.
+    """The system x(k+1) = A x(k) + F v(k), r(k) = C x(k) + G v(k) without inputs, exact over one field.
 
     A is n x n, F n x m, C p x n, G p x m, of type Matrix over the same field; `ResidualSystem.of` takes nested lists, sympy matrices and
     so on. Two systems are equal where their matrices are, and they can be pickled and used as keys.
@@ -198,11 +198,11 @@ class ResidualSystem(System):
 
     @property
     def residual(self) -> ResidualSystem:  # type: ignore[override]
-        """This is the system itself: what FaultySystem.residual is for a system with inputs."""
+        """The system itself: what FaultySystem.residual is for a system with inputs."""
         return self
 
     def transposed(self) -> ResidualSystem:
-        """The result is (A', C', F', G'): its pencil is the transpose, and its left minimal indices are the right ones of this system."""
+        """Return (A', C', F', G'): its pencil is the transpose, and its left minimal indices are the right ones of this system."""
         return ResidualSystem(self.A.transposed(), self.C.transposed(), self.F.transposed(), self.G.transposed())
 
     def with_faults(self, F: Matrix, G: Matrix) -> ResidualSystem:
@@ -222,7 +222,7 @@ class ResidualSystem(System):
 
 @dataclass(frozen=True, init=False, repr=False)
 class FaultySystem(System):
-    """This is the system x(k+1) = A x + B u + F v, y = C x + D u + G v: a ResidualSystem `residual` with n_u inputs u.
+    """The system x(k+1) = A x + B u + F v, y = C x + D u + G v: a ResidualSystem `residual` with n_u inputs u.
 
     B is n x n_u and D p x n_u, of type Matrix over the field of the residual system; `System` takes nested lists. The inputs are known, so
     that everything about faults is a matter of `residual`, and all functions that take a system take either kind.
@@ -283,7 +283,7 @@ class FaultySystem(System):
         yield from named_matrix("D", self.D)
 
     def to_json(self) -> dict[str, Any]:
-        """The result is the dict that exact files hold."""
+        """Return the dict that exact files hold."""
         result = super().to_json()
         if self.nu == 0 or "n" in result:
             result |= {"n": self.n, "m": self.m, "p": self.p, "nu": self.nu}
@@ -291,7 +291,7 @@ class FaultySystem(System):
 
 
 def residual_of(given: object, where: str = "system") -> ResidualSystem:
-    """The result is the residual system of a System of either kind. Raises InvalidInput for anything else, and says what to try."""
+    """Return the residual system of a System of either kind. Raises InvalidInput for anything else, and says what to try."""
     if isinstance(given, System):
         return given.residual
     hint = ""
@@ -303,7 +303,7 @@ def residual_of(given: object, where: str = "system") -> ResidualSystem:
 
 
 def read_system(data: object, *, where: str = "system") -> System:
-    """The result is the System that the dict of an exact file holds; `where` is how messages call it.
+    """Return the System that the dict of an exact file holds; `where` is how messages call it.
 
     The dict has "A" (n x n), "F" (n x m), "C" (p x n), "G" (p x m), each a list of rows, and may have "B" and "D" together, "field", and
     the sizes "n", "m", "p" and "nu", which are required where one of them is zero. Entries are integers and rational strings, over Q(a)
@@ -356,7 +356,7 @@ def _read_residual(data: Mapping[str, Any], field: Field) -> ResidualSystem:
 
 
 def from_float_exactly(value: float, *, where: str = "entry") -> Fraction:
-    """The result is the dyadic rational that a finite float is, of type Fraction: the only way in for floats.
+    """Return the dyadic rational that a finite float is, of type Fraction: the only way in for floats.
 
     A float that was measured or rounded has no exact zeros, so that an answer about the result is one about those digits; `where` is how
     messages call the number.
@@ -379,7 +379,7 @@ def _with_inputs(system: ResidualSystem, B: object, D: object, nu: int, name: st
 
 
 def _refuse_what_has_no_rows(given: Mapping[str, object]) -> None:
-    """Raises InvalidInput for what is no matrix at all, before its dimensions are asked for."""
+    """Raise InvalidInput for what is no matrix at all, before its dimensions are asked for."""
     for name, entries in given.items():
         if not isinstance(entries, (list, tuple)) and len(getattr(entries, "shape", ())) != 2:
             raise InvalidInput(not_rows(entries, name))
@@ -398,7 +398,7 @@ def _agree(name: str, matrix: Matrix, shape: tuple[int, int], field: Field) -> N
 
 
 def _dimension(name: str, given: object, *places: tuple[object, int]) -> int:
-    """The result is the stated dimension, or the one that the first matrix with entries shows."""
+    """Return the stated dimension, or the one that the first matrix with entries shows."""
     if given is not None:
         return natural(given, name)
     for entries, axis in places:
@@ -409,7 +409,7 @@ def _dimension(name: str, given: object, *places: tuple[object, int]) -> int:
 
 
 def _extent(entries: object, axis: int) -> int | None:
-    """The result is the number of rows (axis 0) or columns (axis 1) of nested lists or a matrix; it is None where an empty list does not
+    """Return the number of rows (axis 0) or columns (axis 1) of nested lists or a matrix; it is None where an empty list does not
     tell.
     """
     if isinstance(entries, (Matrix,)):

@@ -14,7 +14,7 @@ from .systems import System, residual_of
 
 
 def observability_matrix(system: System, s: int) -> Matrix:
-    """The result is O_s, of shape p s x n: the s block rows C, C A, ..., C A^(s-1), which take x(0) to the outputs of s samples.
+    """Return O_s, of shape p s x n: the s block rows C, C A, ..., C A^(s-1), which take x(0) to the outputs of s samples.
 
     `system` is a System of either kind with n states and p outputs. Source: [G25] Theorem 2 after [SB21]; [K80].
 
@@ -35,7 +35,7 @@ def observability_matrix(system: System, s: int) -> Matrix:
 
 
 def toeplitz_matrix(system: System, s: int) -> Matrix:
-    """The result is T_s, of shape p s x m s: G on the diagonal and C A^(i-j-1) F below, the response to the fault from rest.
+    """Return T_s, of shape p s x m s: G on the diagonal and C A^(i-j-1) F below, the response to the fault from rest.
 
     `system` is a System of either kind with m faults and p outputs. Source: [G25] Theorem 2 after [SB21].
 
@@ -58,7 +58,7 @@ def toeplitz_matrix(system: System, s: int) -> Matrix:
 
 
 def window_matrix(system: System, s: int) -> Matrix:
-    """The result is [O_s T_s], of shape p s x (n + m s): its column space is the set of outputs that s samples can show.
+    """Return [O_s T_s], of shape p s x (n + m s): its column space is the set of outputs that s samples can show.
 
     It takes (x(0), v(0), ..., v(s-1)) to (r(0), ..., r(s-1)). `system` is a System; for ranks at many s ask
     `kernel_representation(system).rank`, which builds no such matrix. Source: [G25] Theorem 2 after [SB21].
@@ -74,7 +74,7 @@ def window_matrix(system: System, s: int) -> Matrix:
 
 
 def reachability_matrix(system: System) -> Matrix:
-    """The result is [F, A F, ..., A^(n-1) F], of shape n x n m: its column space is what the fault can reach from rest.
+    """Return [F, A F, ..., A^(n-1) F], of shape n x n m: its column space is what the fault can reach from rest.
 
     `system` is a System of either kind with n states and m faults; (A, F) is controllable iff the rank is n. Source: [K80].
 

@@ -44,7 +44,7 @@ class Tell(Protocol):
 
 @dataclass(frozen=True)
 class State:
-    """This is what was reported last; `total` is 0 where it is not known."""
+    """What was reported last; `total` is 0 where it is not known."""
 
     stage: str
     done: int = 0

@@ -50,7 +50,7 @@ class Shown(ABC):
     @property
     @abstractmethod
     def title(self) -> str:
-        """This is what the record is about, on one short line."""
+        """What the record is about, on one short line."""
 
     @abstractmethod
     def sheet(self) -> Sheet:

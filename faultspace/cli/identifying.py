@@ -20,10 +20,10 @@ from ..base.sheets import counted
 from ..base.tasks import shared
 from ..numeric.data.files import read_record, read_stretches
 from ..numeric.data.records import Record
-from ..numeric.pipeline import identify
-from ..numeric.report import files as report
-from ..numeric.report.folders import refuse
-from ..numeric.report.summary import summary
+from ..numeric.plant.pipeline import identify
+from ..numeric.plant.report import result_files as report
+from ..numeric.plant.report.folders import refuse
+from ..numeric.plant.report.summary import summary
 from .argument_names import as_options, naming, of_file
 from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED

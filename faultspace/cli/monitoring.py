@@ -23,13 +23,13 @@ from ..numeric.data.files import read_record
 from ..numeric.data.records import Record, recorded
 from ..numeric.data.selectors import split_names
 from ..numeric.data.streams import RESTARTED, TableStream, followed
-from ..numeric.model.models import FORMAT as MODEL_FORMAT
-from ..numeric.model.models import StateSpaceModel
-from ..numeric.monitor.alarms import Alarm
-from ..numeric.monitor.learned import FORMAT, MONITORING
-from ..numeric.monitor.monitoring import LEVEL, WINDOW, Monitor
-from ..numeric.monitor.saving import refuse
-from ..numeric.report.files import MODEL
+from ..numeric.method.model.models import FORMAT as MODEL_FORMAT
+from ..numeric.method.model.models import StateSpaceModel
+from ..numeric.plant.monitor.alarms import Alarm
+from ..numeric.plant.monitor.learned import FORMAT, MONITORING
+from ..numeric.plant.monitor.monitoring import ALARM_LEVEL, WINDOW, Monitor
+from ..numeric.plant.monitor.saving import refuse
+from ..numeric.plant.report.result_files import MODEL
 from .argument_names import as_options, naming, of_file
 from .failures import ANSWERED, INTERRUPTED
 from .reading_files import read_json
@@ -160,7 +160,7 @@ def _calibrated(ready: _Ready, samples: Iterator[np.ndarray | None], watching: W
             healthy = read_record(watching.healthy, inputs=ready.inputs, outputs=ready.outputs, on_progress=evenly(telling))
     else:
         healthy = _first(samples, watching.healthy_until or 0, ready.inputs, ready.outputs)
-    level, window = LEVEL if watching.level is None else watching.level, WINDOW if watching.window is None else watching.window
+    level, window = ALARM_LEVEL if watching.level is None else watching.level, WINDOW if watching.window is None else watching.window
     worded = as_options if watching.healthy is None else of_file
     with working("calibrating the thresholds"), naming(worded), in_file(watching.healthy or watching.follow or STDIN):
         watch = Monitor(ready.plant, healthy, level=level, window=window)

@@ -36,7 +36,7 @@ _ADVICE = "--floats-exactly takes them as the dyadic rationals that they are"
 _TABLES = (".csv", ".tsv", ".txt", ".dat")
 _IDENTIFY = "`faultspace identify` takes it"
 
-MODEL_FORMAT = "faultspace-model/1"  # FORMAT of numeric/model/models.py, which would load numpy; a test compares the two
+MODEL_FORMAT = "faultspace-model/1"  # FORMAT of numeric/method/model/models.py, which would load numpy; a test compares the two
 _MODEL_KEYS = ("format", "n", "n_u", "p", "n_v", "A", "B", "C", "D", "F", "G", "inputs", "outputs", "dt", "monitoring")
 
 

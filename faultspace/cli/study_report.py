@@ -23,11 +23,11 @@ from rich.table import Table
 from ..base.errors import InvalidInput, quote_path
 from ..base.messages import say
 from ..base.sheets import counted
-from ..numeric.report.folders import refuse, replace
-from ..numeric.study.cases import LIKELIHOOD
+from ..numeric.plant.report.folders import refuse, replace
 from ..numeric.study.groups import QUANTILES, Group, by_phase, by_zeros
 from ..numeric.study.keeping import TEMPORARY
 from ..numeric.study.studies import STUDIES, Study
+from ..numeric.study.study_cases import LIKELIHOOD
 
 DOCUMENT, CASES, SUMMARY = "studies.json", "cases.csv", "summary.md"
 NAMES = (DOCUMENT, CASES, SUMMARY, *(f"figure-{name}.png" for name in STUDIES))

@@ -11,7 +11,7 @@ from pathlib import Path
 from ..base.errors import InvalidInput, quote_path
 from ..base.messages import say
 from ..base.progress import evenly, working
-from ..numeric.report.folders import refuse
+from ..numeric.plant.report.folders import refuse
 from ..numeric.study.keeping import Kept, Settings, keeping
 from ..numeric.study.studies import STUDIES, Study, check_memory, monte_carlo
 from .consoles import answers, paragraph, print_json, print_table

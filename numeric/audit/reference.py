@@ -11,19 +11,19 @@ import numpy as np
 from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ...base.sheets import counted
-from ..count.hankel_ranks import rounding_ranks
-from ..count.rank_gap import fault_dimension as count
-from ..count.windows import EPS, channel_sizes
 from ..data.validation import enough_samples, signal
-from ..model.asymptotic_likelihood import arx_reduction
-from ..model.models import StateSpaceModel
-from ..model.past_inputs import UNDETERMINED, pi_moesp
-from ..model.residuals import residual as subtract
-from ..rows.fault_count import count_faults as count_in_record
-from ..rows.space import identified_fault_space as space_of_model
-from ..signal.reconstruction import reconstruct_fault
-from ..signal.zeros import fault_zeros, in_equal_units
-from ..space.by_ranks import fault_space as space
+from ..method.model.asymptotic_likelihood import arx_reduction
+from ..method.model.models import StateSpaceModel
+from ..method.model.past_inputs import UNDETERMINED, pi_moesp
+from ..method.model.residuals import residual as subtract
+from ..method.ranks.hankel_ranks import rounding_ranks
+from ..method.ranks.rank_gap import fault_dimension as count
+from ..method.ranks.sample_windows import EPS, channel_sizes
+from ..method.rows.fault_count import count_faults as count_in_record
+from ..method.rows.space_by_rows import identified_fault_space as space_of_model
+from ..method.signal.pair_zeros import fault_zeros, in_equal_units
+from ..method.signal.reconstruction import reconstruct_fault
+from ..method.space.by_ranks import fault_space as space
 from .adapter import ZeroStructure
 
 RANK = 1e-10  # of the largest singular value: ranks of small matrices with entries of a few digits

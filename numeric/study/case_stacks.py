@@ -16,8 +16,9 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.threads import one_thread
-from ..model.toeplitz_stacks import toeplitz_factorisations
-from .cases import (
+from .random_systems import MOST_ZEROS, N_V, N_X, P
+from .run_stacks import responses, study_runs
+from .study_cases import (
     NOISE_LEVEL,
     PAPER,
     PUBLISHED_WINDOW,
@@ -30,9 +31,8 @@ from .cases import (
     seeds_of_parts,
     truth_of,
 )
-from .run_stacks import responses, study_runs
 from .system_stacks import SystemStack, study_systems
-from .systems import MOST_ZEROS, N_V, N_X, P
+from .toeplitz_stacks import toeplitz_factorisations
 
 # Long records spend their time inside the calls, and would fill the memory; short ones have fewer windows than rows of the Hankel matrix.
 LONGEST, SHORTEST = 10_000, 50

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.special
 
-from .cases import PAPER, Case, Failed, Numbered
+from .study_cases import PAPER, Case, Failed, Numbered
 
 QUANTILES = (0.1, 0.25, 0.5, 0.75, 0.9)  # that a table shows
 CONFIDENCE = 0.95  # of its intervals

@@ -30,7 +30,7 @@ from filelock import FileLock, Timeout
 from ...base.errors import InvalidInput, quote_path, shorten
 from ...base.sheets import counted
 from ...base.writing import reason
-from .cases import Case, Errors, Estimate, Failed
+from .study_cases import Case, Errors, Estimate, Failed
 
 UNFINISHED, TEMPORARY = "unfinished-cases.jsonl", ".unfinished-monte-carlo"
 LOCK = ".faultspace-lock"

@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from ...base.sheets import counted
-from .cases import LAWS, LIKELIHOOD, PAPER, Case
 from .groups import Group, StudyCases, by_phase, by_zeros, cases_by_phase, cases_by_zeros
+from .study_cases import LAWS, LIKELIHOOD, PAPER, Case
 
 # A palette that is told apart in grey print and by colour-blind readers (Okabe and Ito).
 COLOURS = {0: "#999999", 1: "#0072B2", 2: "#E69F00", 3: "#009E73"}

@@ -14,9 +14,9 @@ import numpy as np
 import scipy.signal
 
 from ...base.arrays import Array
+from .random_systems import N_U, N_X, P
 from .runs import LOW_PASS, study_chirp, study_rise
 from .system_stacks import SystemStack
-from .systems import N_U, N_X, P
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,8 +20,8 @@ import scipy.signal
 
 from ...base.arrays import Array
 from ..data.validation import positive
-from ..model.models import StateSpaceModel, observability_matrix
-from .systems import N_U, N_X, P, StudySystem
+from ..method.model.models import StateSpaceModel, observability_matrix
+from .random_systems import N_U, N_X, P, StudySystem
 
 SAMPLES = 1001
 LOW_PASS = (0.17, 0.5, 0.5, 0.17), (1.0, 0.0, 0.33, 0.0)  # of the published study [G25]

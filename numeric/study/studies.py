@@ -45,11 +45,22 @@ from ...base.sheets import Shown, counted
 from ...base.tasks import Died, Task
 from ..data.validation import positive
 from .case_stacks import published_cases
-from .cases import LAWS, LIKELIHOOD, PAPER, Case, Failed, attempted, corrected_case, corrected_identified_case, identified_case, one_by_one
 from .groups import Group, Plan, StudyCases, by_phase, by_zeros
 from .plots import errors_by_zeros
 from .runs import SAMPLES
-from .workers import done_by
+from .study_cases import (
+    LAWS,
+    LIKELIHOOD,
+    PAPER,
+    Case,
+    Failed,
+    attempted,
+    corrected_case,
+    corrected_identified_case,
+    identified_case,
+    one_by_one,
+)
+from .study_workers import done_by
 
 SEED = 1907
 CASE_BYTES = 1 << 12

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...base.arrays import Array
-from .systems import DIRECTIONS, INTERSECTION_BASIS, N_U, N_V, N_X, P, companion, draw_poles, study_system
+from .random_systems import DIRECTIONS, INTERSECTION_BASIS, N_U, N_V, N_X, P, companion, draw_poles, study_system
 
 EPS = float(np.finfo(np.float64).eps)
 # A column of the compressed pencil's kernel leaves this or less of the outputs left out at a zero, and this or more elsewhere. Zeros have

@@ -7,10 +7,10 @@ import pytest
 import scipy.stats
 
 from benchmarks.counting_at_the_bound import SETTINGS, one_in_ten, quantile_regression, record, white_faults
-from faultspace.numeric.rows import laws
-from faultspace.numeric.rows.evidence import Evidence
-from faultspace.numeric.rows.fault_count import count_faults
-from faultspace.numeric.rows.remainder import loose_samples
+from faultspace.numeric.method.rows import law_tests as laws
+from faultspace.numeric.method.rows.evidence import Evidence
+from faultspace.numeric.method.rows.fault_count import count_faults
+from faultspace.numeric.method.rows.remainder import loose_samples
 
 
 @pytest.mark.parametrize("seed", [261000, pytest.param(261001, marks=pytest.mark.slow), pytest.param(261007, marks=pytest.mark.slow)])

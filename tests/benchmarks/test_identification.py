@@ -17,7 +17,7 @@ from benchmarks.identification_study import Comparison, sections
 from benchmarks.identification_tables import MODELS, notes, sheets
 from benchmarks.sheets import markdown
 from faultspace.base.processes import Limits
-from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.method.model.models import StateSpaceModel
 
 SETTING = Setting(2, 3, 5, 20_000)
 NOISY = replace(SETTING, noise=0.01)

@@ -16,7 +16,7 @@ from benchmarks.identification_data import ORDER, Setting, errors, record
 from benchmarks.limits_against_floats import ERRORS, METHODS, chosen, compared, distance, drawn, expected, sample_limits, table
 from benchmarks.past_outputs_bias import benchmark_experiment, examined, free_order, predicted
 from faultspace.exact.limits.moesp import PopulationLimits, limit
-from faultspace.numeric.model.past_outputs import po_moesp
+from faultspace.numeric.method.model.past_outputs import po_moesp
 from faultspace.proofs.evidence.experiments import FAMILIES
 from tests.numeric.predicted_limits import invariants, predicted_model
 

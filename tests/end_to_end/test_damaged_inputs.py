@@ -19,7 +19,7 @@ import pytest
 
 from faultspace.base.errors import InvalidInput
 from faultspace.cli import identifying
-from faultspace.numeric import pipeline
+from faultspace.numeric.plant import pipeline
 from tests.end_to_end.commands import Run, call
 from tests.end_to_end.damaged import arguments, damaged, sound
 from tests.thorough import THOROUGH

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.method.model.models import StateSpaceModel
 from tests.end_to_end.identify_runs import identified, refused, small_csv, valid
 
 CHANNELS = ("--inputs", "u", "--outputs", "a,b")

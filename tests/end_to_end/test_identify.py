@@ -24,21 +24,21 @@ from numpy.typing import NDArray
 
 from faultspace import example_data as made
 from faultspace.cli.reading_files import _MODEL_KEYS, MODEL_FORMAT
-from faultspace.numeric import choice as identification_signal
-from faultspace.numeric import pipeline as identifying
-from faultspace.numeric.count.rank_gap import fault_dimension
 from faultspace.numeric.data.files import read_record
 from faultspace.numeric.data.records import recorded
-from faultspace.numeric.model.models import FORMAT, StateSpaceModel
-from faultspace.numeric.report import files as report
-from faultspace.numeric.report import folders
-from faultspace.numeric.report.causes import RESIDUAL
-from faultspace.numeric.report.folders import MANIFEST
-from faultspace.numeric.report.pictures import PICTURES
-from faultspace.numeric.report.summary import advice
-from faultspace.numeric.signal.reconstruction import reconstruct_fault
-from faultspace.numeric.space.by_ranks import fault_space
-from faultspace.numeric.space.distances import containment_distance, subspace_distance
+from faultspace.numeric.method.model.models import FORMAT, StateSpaceModel
+from faultspace.numeric.method.ranks.rank_gap import fault_dimension
+from faultspace.numeric.method.signal.reconstruction import reconstruct_fault
+from faultspace.numeric.method.space.by_ranks import fault_space
+from faultspace.numeric.method.space.distances import containment_distance, subspace_distance
+from faultspace.numeric.plant import pipeline as identifying
+from faultspace.numeric.plant.report import folders
+from faultspace.numeric.plant.report import result_files as report
+from faultspace.numeric.plant.report.causes_told import RESIDUAL
+from faultspace.numeric.plant.report.folders import MANIFEST
+from faultspace.numeric.plant.report.result_pictures import PICTURES
+from faultspace.numeric.plant.report.summary import advice
+from faultspace.numeric.plant.steps import choice as identification_signal
 from tests.end_to_end.commands import Run, call, validator
 from tests.end_to_end.identify_runs import identified, refused, small_csv, valid
 
@@ -78,7 +78,7 @@ def given(tmp_path_factory: pytest.TempPathFactory, record: made.FaultyRecord) -
     folder = tmp_path_factory.mktemp("given")
     path = small_csv(folder, made.csv_text(record), made.FILE_NAME)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("faultspace.numeric.report.pictures.import_module", without)
+        patch.setattr("faultspace.numeric.plant.report.result_pictures.import_module", without)
         run = identified(path, folder / "out", "--json", "--faults", "1", "--order", "3")
     assert run.code == 0, run.err
     return run, folder / "out"

@@ -18,12 +18,12 @@ from scipy.signal import butter, lfilter, sosfilt
 from faultspace import example_data as made
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.data.records import recorded
-from faultspace.numeric.model.models import StateSpaceModel
-from faultspace.numeric.pipeline import identify
-from faultspace.numeric.report import files as report
-from faultspace.numeric.report.summary import summary
-from faultspace.numeric.result import Identification
-from faultspace.numeric.space.largest import largest_fault_space
+from faultspace.numeric.method.model.models import StateSpaceModel
+from faultspace.numeric.method.space.largest import largest_fault_space
+from faultspace.numeric.plant.answer import Identification
+from faultspace.numeric.plant.pipeline import identify
+from faultspace.numeric.plant.report import result_files as report
+from faultspace.numeric.plant.report.summary import summary
 from tests.end_to_end.identify_runs import valid
 from tests.thorough import every
 

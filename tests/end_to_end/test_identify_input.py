@@ -27,9 +27,9 @@ from faultspace.cli import command_line, identifying
 from faultspace.numeric.data import files as data_files
 from faultspace.numeric.data.files import read_record
 from faultspace.numeric.data.selectors import quoted, split_names
-from faultspace.numeric.model.models import StateSpaceModel
-from faultspace.numeric.pipeline import identify as whole_identify
-from faultspace.numeric.report import files as report
+from faultspace.numeric.method.model.models import StateSpaceModel
+from faultspace.numeric.plant.pipeline import identify as whole_identify
+from faultspace.numeric.plant.report import result_files as report
 from tests.end_to_end.identify_runs import identified, refused, small_csv
 
 Array = NDArray[np.float64]

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from faultspace import example_data as made
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import StateSpaceModel, identify
-from faultspace.numeric.count.exactness import obeys_exactly
-from faultspace.numeric.report.files import document
-from faultspace.numeric.result import Identification
+from faultspace.numeric.method.ranks.exactness import obeys_exactly
+from faultspace.numeric.plant.answer import Identification
+from faultspace.numeric.plant.report.result_files import document
 from tests.end_to_end.identify_runs import valid
 
 Array = NDArray[np.float64]

@@ -19,18 +19,18 @@ from numpy.typing import NDArray
 
 from faultspace import example_data as made
 from faultspace.base.errors import InvalidData
-from faultspace.numeric import counting
-from faultspace.numeric import pipeline as identifying
 from faultspace.numeric.data import records
 from faultspace.numeric.data.records import Passes, Record, RecordWriter, SampleStore, recorded, stored
-from faultspace.numeric.model.models import StateSpaceModel
-from faultspace.numeric.model.past_inputs import pi_moesp
-from faultspace.numeric.model.residuals import residual
-from faultspace.numeric.signal import reconstruction
-from faultspace.numeric.signal import residual_sizes as sizes_of_residuals
-from faultspace.numeric.signal.reconstruction import reconstruct_fault
-from faultspace.numeric.signal.residual_sizes import PART, loudest, residual_sizes
-from faultspace.numeric.signal.smoother import smoothed
+from faultspace.numeric.method.model.models import StateSpaceModel
+from faultspace.numeric.method.model.past_inputs import pi_moesp
+from faultspace.numeric.method.model.residuals import residual
+from faultspace.numeric.method.signal import reconstruction
+from faultspace.numeric.method.signal import residual_sizes as sizes_of_residuals
+from faultspace.numeric.method.signal.reconstruction import reconstruct_fault
+from faultspace.numeric.method.signal.residual_sizes import PART, loudest, residual_sizes
+from faultspace.numeric.method.signal.smoother import smoothed
+from faultspace.numeric.plant import pipeline as identifying
+from faultspace.numeric.plant.steps import counting
 from tests.end_to_end.commands import ROOT, environment
 from tests.end_to_end.identify_runs import CHANNELS
 from tests.thorough import THOROUGH
@@ -178,8 +178,8 @@ from pathlib import Path
 from faultspace.cli import command_line
 from faultspace.numeric import counting
 from faultspace.numeric.data import records
-from faultspace.numeric.monitor import monitoring
-from faultspace.numeric.signal import reconstruction
+from faultspace.numeric.plant.monitor import monitoring
+from faultspace.numeric.method.signal import reconstruction
 counting.HELD, records.IN_MEMORY, reconstruction.LONGEST, monitoring.NUMBERS = 1 << 15, {in_memory}, 1 << 13, 1 << 20
 with contextlib.suppress(ImportError):
     from matplotlib.figure import Figure

@@ -13,7 +13,7 @@ import jsonschema
 import pytest
 
 from faultspace.cli import study_report, studying
-from faultspace.numeric.report import folders
+from faultspace.numeric.plant.report import folders
 from tests.end_to_end.commands import call
 
 NAMES = ["published", "identified", "corrected", "corrected-identified"]

@@ -20,7 +20,7 @@ from faultspace.numeric.data import files
 from faultspace.numeric.data.files import read_record, read_stretches
 from faultspace.numeric.data.parts import parts_of
 from faultspace.numeric.data.records import recorded
-from faultspace.numeric.model import arx_windows as windows
+from faultspace.numeric.method.model import arx_windows as windows
 from tests.clusters import Cluster
 from tests.end_to_end.commands import Run, call
 from tests.end_to_end.test_bad_input import refused
@@ -273,6 +273,6 @@ def peak() -> int:
     """Return the most bytes that this process has held, once it has loaded what the work needs."""
     import resource
 
-    import faultspace.numeric.model.arx_windows  # noqa: F401
+    import faultspace.numeric.method.model.arx_windows  # noqa: F401
 
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss << 10

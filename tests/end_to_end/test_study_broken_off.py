@@ -19,10 +19,10 @@ import psutil
 import pytest
 
 from faultspace.cli import study_report
-from faultspace.numeric.study.cases import Case, Numbered, one_by_one, published_case
 from faultspace.numeric.study.groups import Plan
 from faultspace.numeric.study.keeping import LOCK, TEMPORARY, UNFINISHED, Settings, keeping
 from faultspace.numeric.study.studies import PUBLISHED, STUDIES
+from faultspace.numeric.study.study_cases import Case, Numbered, one_by_one, published_case
 from tests.end_to_end.commands import PROGRESS, ROOT, Run, call, environment
 from tests.end_to_end.test_monte_carlo import validator
 

@@ -85,8 +85,8 @@ def file_graph(modules: Iterable[Module]) -> Graph:
 
 
 def place(name: str) -> str:
-    """Return `numeric/space` for a module in that folder, `numeric/pipeline.py` for a file at the top of a room, `numeric` for the room
-    itself.
+    """Return `exact/pairs` for a module in that folder, `proofs/worlds.py` for a file at the top of a room, `exact` for the room itself; in
+    numeric/method and numeric/plant one folder more.
     """
     match name.split("."):
         case ["faultspace"]:
@@ -95,6 +95,8 @@ def place(name: str) -> str:
             return room
         case ["faultspace", "base", *_]:
             return "base"
+        case ["faultspace", "numeric", ("method" | "plant") as hall, inner, *_]:
+            return f"numeric/{hall}/{inner}" if (ROOT / "numeric" / hall / inner).is_dir() else f"numeric/{hall}/{inner}.py"
         case ["faultspace", ("exact" | "numeric" | "proofs") as room, inner]:
             return f"{room}/{inner}" if (ROOT / room / inner).is_dir() else f"{room}/{inner}.py"
         case ["faultspace", ("exact" | "numeric" | "proofs") as room, folder, *_]:

@@ -1,6 +1,7 @@
 """The import arrows between the rooms point one way.
 
 ROOMS           room -> rooms it may import (its own always)
+HALLS           the halls of numeric, each of which imports those before it
 room_of         the room of a dotted name; None for what is not ours
 violations      the sentences that say what a module may not do
 """
@@ -17,6 +18,7 @@ ROOMS = {
     "proofs": {"base", "exact"},
     "front": {"base", "exact", "numeric", "audit", "proofs"},
 }
+HALLS = ("data", "method", "plant", "study")
 CHECKER = "faultspace.proofs.trust.checker"
 CHAIN = (CHECKER, f"{CHECKER}_fields", f"{CHECKER}_structure", f"{CHECKER}_limits")
 ALONE = {name: {*CHAIN[:k]} for k, name in enumerate(CHAIN)}  # what these files may import beside the standard library
@@ -34,6 +36,14 @@ def room_of(name: str) -> str | None:
     return None
 
 
+def hall_of(name: str) -> int | None:
+    """Return the place in HALLS of a module of numeric; None for what lies in no hall."""
+    match name.split("."):
+        case ["faultspace", "numeric", hall, *_] if hall in HALLS:
+            return HALLS.index(hall)
+    return None
+
+
 def violations(module: Module) -> list[str]:
     """Return what the module imports and may not; empty when every arrow points the right way."""
     room = room_of(module.name)
@@ -48,6 +58,8 @@ def violations(module: Module) -> list[str]:
             found.append(f"{module.name} imports {name} by its folder's name instead of faultspace.{name}")
         elif target is not None and target not in allowed:
             found.append(f"{module.name} ({room}) imports {name} ({target})")
+        elif None not in (here := hall_of(module.name), there := hall_of(name)) and there > here:  # type: ignore[operator]
+            found.append(f"{module.name} imports {name}, whose hall lies above its own")
         if module.name in ALONE and name not in ALONE[module.name] and name.partition(".")[0] not in sys.stdlib_module_names:
             found.append(f"{module.name} imports {name}, which is not in the standard library")
     return found
@@ -74,6 +86,8 @@ BROKEN = [
     ("exact.made_up", "from exact import windows"),
     ("numeric.made_up", "from faultspace.exact.system.windows import observability"),
     ("numeric.made_up", "from .audit import checks"),
+    ("numeric.method.signal.made_up", "from ...plant.healthy import mean_shift"),
+    ("numeric.data.made_up", "def late():\n    from ..method import plotting"),
     ("numeric.audit.made_up", "from ...proofs import ledger"),
     ("proofs.made_up", "import numpy, faultspace.numeric"),
     ("proofs.cross_floats", "import faultspace.numeric.audit"),
@@ -88,6 +102,7 @@ BROKEN = [
 SOUND = [
     ("exact.made_up", "import sympy\nfrom . import fields\nfrom .fields import QQ\nimport faultspace.exact.system.windows"),
     ("numeric.audit.made_up", "from ...exact import windows\nfrom ..pi_moesp import fit\nfrom faultspace import exact"),
+    ("numeric.study.made_up", "from ..method import plotting\nfrom ..plant import pipeline\nfrom ..data import records"),
     ("proofs.cross_floats", "from faultspace import numeric\nfrom ..exact import windows"),
     ("proofs.trust.checker", "from __future__ import annotations\nimport json\nfrom collections import abc"),
     ("proofs.trust.checker_limits", "import json\nfrom . import checker"),

@@ -30,7 +30,7 @@ def test_folders_import_each_other_one_way() -> None:
     "sources",
     [
         {"exact.made_up": "from .system import other", "exact.system.other": "from ..made_up import something"},
-        {"numeric.space.one": "from .two import f", "numeric.space.two": "def late():\n    from .one import g"},
+        {"numeric.method.space.one": "from .two import f", "numeric.method.space.two": "def late():\n    from .one import g"},
         {"proofs.a": "from . import b", "proofs.b": "from .c import f", "proofs.c": "import faultspace.proofs.a"},
         {
             "numeric.data.one": "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from .two import T",
@@ -47,7 +47,7 @@ def test_a_circle_of_files_is_noticed(sources: dict[str, str]) -> None:
     ("name", "source", "folders"),
     [
         ("exact.algebra.made_up", "from ..structure import relations", {"exact/algebra", "exact/structure"}),
-        ("numeric.data.made_up", "from ..signal.zeros import transmission_zeros", {"numeric/data", "numeric/signal"}),
+        ("numeric.data.made_up", "from ..method.signal.pair_zeros import finite_zeros", {"numeric/data", "numeric/method/signal"}),
         ("proofs.trust.made_up", "def late():\n    from ..verdict.ledger import load", {"proofs/trust", "proofs/verdict"}),
     ],
 )
@@ -69,7 +69,9 @@ def test_the_folders_of_the_audit_import_each_other_one_way() -> None:
 
 def test_a_place_is_a_folder_or_a_file_at_the_top_of_a_room() -> None:
     assert place("faultspace.numeric.audit.peers.harold") == "numeric/audit"
-    assert place("faultspace.numeric.pipeline") == "numeric/pipeline.py"
+    assert place("faultspace.numeric.plant.pipeline") == "numeric/plant/pipeline.py"
+    assert place("faultspace.numeric.method.rows.degree") == place("faultspace.numeric.method.rows") == "numeric/method/rows"
+    assert place("faultspace.numeric.study.studies") == "numeric/study"
     assert place("faultspace.exact.algebra") == "exact/algebra"
     assert place("faultspace.exact") == "exact"
     with pytest.raises(ValueError, match=r"numpy\.linalg is no module of the house"):

@@ -1,11 +1,15 @@
-"""A room has one import name, faultspace.<room>, and its folder's own name is refused."""
+"""A room has one import name, faultspace.<room>, and its folder's own name is refused; in numeric a name is one module's alone."""
 
+import importlib
 import os
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 
 import pytest
+
+from .import_graph import house
 
 ROOMS = ("exact", "numeric", "proofs")
 
@@ -30,3 +34,11 @@ def test_the_full_name_works_and_the_plain_name_is_refused_in_one_line(root: Pat
         assert run.returncode != 0, room
         last = run.stderr.strip().splitlines()[-1]
         assert last.startswith("ImportError: ") and f"'import faultspace.{room}'" in last
+
+
+def test_no_two_modules_of_numeric_share_a_name_and_none_has_that_of_a_public_function() -> None:
+    modules = [one.name.split(".")[2:] for one in house() if one.name.startswith("faultspace.numeric.") and ".audit" not in one.name]
+    names = Counter(name[-1] for name in modules)
+    assert len(names) > 100
+    assert [name for name, times in names.items() if times > 1] == []
+    assert names.keys() & set(importlib.import_module("faultspace.numeric").__all__) == set()

@@ -19,7 +19,7 @@ from faultspace.exact.limits.experiments import Experiment
 from faultspace.exact.limits.filters import Filter
 from faultspace.exact.limits.inputs import by_output_error
 from faultspace.exact.limits.moments import Covariances, WindowCovariances
-from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.method.model.models import StateSpaceModel
 
 SETTLING = 500
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from faultspace.numeric.space.distances import principal_angles
+from faultspace.numeric.method.space.distances import principal_angles
 
 
 def author_error(truth: object, estimate: object) -> float:

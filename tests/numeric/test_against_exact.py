@@ -22,10 +22,10 @@ from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.signals import excitation_matrix, simulate
 from faultspace.exact.system.systems import ResidualSystem, read_system
 from faultspace.numeric.audit.vectors.shipped_vectors import StructureVector, shipped
-from faultspace.numeric.signal.reconstruction import reconstruct_fault
-from faultspace.numeric.signal.zeros import fault_zeros
-from faultspace.numeric.space.by_ranks import fault_space
-from faultspace.numeric.space.distances import containment_distance, subspace_distance
+from faultspace.numeric.method.signal.pair_zeros import fault_zeros
+from faultspace.numeric.method.signal.reconstruction import reconstruct_fault
+from faultspace.numeric.method.space.by_ranks import fault_space
+from faultspace.numeric.method.space.distances import containment_distance, subspace_distance
 from tests.numeric.planted import paper_example
 from tests.oracle.structured import Structure, planted_system
 

@@ -7,8 +7,8 @@ import pytest
 
 from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.model.arx import Arx, fitted_arx, input_spectrum, polynomial
-from faultspace.numeric.model.arx_windows import (
+from faultspace.numeric.method.model.arx import Arx, fitted_arx, input_spectrum, polynomial
+from faultspace.numeric.method.model.arx_windows import (
     ArxWindows,
     about_zero,
     arx_windows,
@@ -17,8 +17,8 @@ from faultspace.numeric.model.arx_windows import (
     merge_windows,
     past_input_compression,
 )
-from faultspace.numeric.model.compression import compress
-from faultspace.numeric.model.weighted_reduction import circle
+from faultspace.numeric.method.model.compression import compress
+from faultspace.numeric.method.model.weighted_reduction import circle
 
 RNG = np.random.default_rng(3)
 Y, U = np.cumsum(RNG.standard_normal((60, 2)), axis=0) * [1.0, 1e4], RNG.standard_normal((60, 1)) * 1e-3

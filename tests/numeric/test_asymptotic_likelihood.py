@@ -13,17 +13,17 @@ import scipy.signal
 from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import ReducedModel, Spectra, StateSpaceModel, arx_reduction, arx_reduction_experiments, cramer_rao, pi_moesp
-from faultspace.numeric.bound.information_bound import relative_error
-from faultspace.numeric.bound.spectra import filtered, through, total, white
-from faultspace.numeric.model import reduced_model, weighted_reduction
-from faultspace.numeric.model.arx import fitted_arx
-from faultspace.numeric.model.arx_windows import arx_windows
-from faultspace.numeric.model.feedback import feedback_chance
-from faultspace.numeric.model.invariants import half_transfers, system_matrix
-from faultspace.numeric.model.residuals import residual
-from faultspace.numeric.model.weighted_reduction import Reduction, circle
+from faultspace.numeric.method.model import reduced_model, weighted_reduction
+from faultspace.numeric.method.model.arx import fitted_arx
+from faultspace.numeric.method.model.arx_windows import arx_windows
+from faultspace.numeric.method.model.feedback import feedback_chance
+from faultspace.numeric.method.model.invariants import half_transfers, system_matrix
+from faultspace.numeric.method.model.residuals import residual
+from faultspace.numeric.method.model.weighted_reduction import Reduction, circle
+from faultspace.numeric.study.bound.driving_spectra import filtered, through, total, white
+from faultspace.numeric.study.bound.information_bound import relative_error
+from faultspace.numeric.study.random_systems import study_system
 from faultspace.numeric.study.runs import NOISE_GAIN, study_run
-from faultspace.numeric.study.systems import study_system
 
 PLANT = StateSpaceModel(
     [[0.9, 0.2, 0.0], [0.0, -0.6, 0.0], [0.0, 0.0, 0.3]], [[1.0], [1.0], [1.0]], [[1.0, 1.0, 1.0], [1.0, -1.0, 0.5]], [[0.3], [0.0]]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from scipy.special import chdtri, fdtrc
 
-from faultspace.numeric.rows import laws
-from faultspace.numeric.rows.evidence import Evidence
+from faultspace.numeric.method.rows import law_tests as laws
+from faultspace.numeric.method.rows.evidence import Evidence
 from tests.numeric.planted import joint_record
 from tests.numeric.test_rows import plant
 

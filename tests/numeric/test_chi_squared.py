@@ -12,7 +12,7 @@ import scipy.signal
 import scipy.stats
 
 from faultspace.base.chi_squared import chi_squared_quantile, chi_squared_tail
-from faultspace.numeric.space.tapered_moments import cosine_taper
+from faultspace.numeric.method.space.tapered_moments import cosine_taper
 
 IDENTIFIED = """
 import sys

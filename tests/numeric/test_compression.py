@@ -13,8 +13,8 @@ import pytest
 from numpy.typing import NDArray
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.model.compression import HARMLESS, Compression, compress, compress_chunks, merge, scaled_condition
-from faultspace.numeric.model.sequential_qr import TOGETHER
+from faultspace.numeric.method.model.compression import HARMLESS, Compression, compress, compress_chunks, merge, scaled_condition
+from faultspace.numeric.method.model.sequential_qr import TOGETHER
 
 Array = NDArray[np.float64]
 

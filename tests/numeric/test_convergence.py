@@ -22,12 +22,12 @@ from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.fault_columns import fault_space as exact_fault_space
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
-from faultspace.numeric.model.input_matrices import by_output_error
-from faultspace.numeric.model.models import StateSpaceModel
-from faultspace.numeric.model.past_inputs import pi_moesp
-from faultspace.numeric.model.past_outputs import po_moesp
-from faultspace.numeric.space.by_ranks import fault_space_by_likelihood
-from faultspace.numeric.space.distances import subspace_distance
+from faultspace.numeric.method.model.input_matrices import by_output_error
+from faultspace.numeric.method.model.models import StateSpaceModel
+from faultspace.numeric.method.model.past_inputs import pi_moesp
+from faultspace.numeric.method.model.past_outputs import po_moesp
+from faultspace.numeric.method.space.by_ranks import fault_space_by_likelihood
+from faultspace.numeric.method.space.distances import subspace_distance
 from tests.numeric.exact_cases import floats
 
 A = Matrix.of([["1/2", "1/4"], ["-1/4", "1/3"]])

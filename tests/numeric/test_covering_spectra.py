@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from faultspace.numeric.count.against_healthy import fault_dimension_against_healthy
-from faultspace.numeric.count.healthy_model import MANY_TAPERS, covering_spectra, healthy_reference, spectra
+from faultspace.numeric.plant.healthy.against_healthy import fault_dimension_against_healthy
+from faultspace.numeric.plant.healthy.healthy_model import MANY_TAPERS, covering_spectra, healthy_reference, spectra
 
 
 @pytest.mark.parametrize("samples", range(8 * MANY_TAPERS - 1, 10 * MANY_TAPERS))

@@ -11,7 +11,7 @@ import pytest
 import scipy.linalg
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.space.distances import (
+from faultspace.numeric.method.space.distances import (
     compare_subspaces,
     containment_distance,
     containment_error,

@@ -22,9 +22,9 @@ from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import StateSpaceModel, arx_reduction, doubts, identify, pi_moesp, record_from
 from faultspace.numeric.data.clocks import Clock, clock_from
-from faultspace.numeric.doubt.channels import _hypergeometric_tail, limit_chance, written_step
-from faultspace.numeric.doubt.errors import burst_chance, outlier_chance, outlier_sizes, score_chance
-from faultspace.numeric.doubt.listing import KINDS, LEVEL, TESTED
+from faultspace.numeric.plant.doubt.channels import _hypergeometric_tail, limit_chance, written_step
+from faultspace.numeric.plant.doubt.listing import DOUBT_LEVEL, KINDS, TESTED
+from faultspace.numeric.plant.doubt.one_step_errors import burst_chance, outlier_chance, outlier_sizes, score_chance
 
 N = 800
 PLANT = StateSpaceModel([[0.6, 0.5], [-0.5, 0.6]], [[1.0], [0.5]], [[1.0, 0.0], [0.3, 1.0]], [[0.4], [0.0]])
@@ -89,7 +89,7 @@ def test_a_planted_doubt_is_seen_with_what_to_do(kind: str) -> None:
     found = doubts(record_from(*PLANTED[kind]))
     (row,) = found.of(kind)
     assert row.evidence and row.effect and row.advice and row.line.startswith(f"{kind}: ")
-    assert (row.chance is not None and row.chance < LEVEL) == (kind in TESTED)
+    assert (row.chance is not None and row.chance < DOUBT_LEVEL) == (kind in TESTED)
     assert [one.kind for one in found] == sorted((one.kind for one in found), key=KINDS.index)
 
 
@@ -209,10 +209,10 @@ def test_limits_are_told_from_signals_that_turn_are_held_or_rounded() -> None:
     }
     for (name, values), sign in itertools.product(quiet.items(), (1, -1)):
         chance = limit_chance(sign * values)[0]
-        assert chance > LEVEL / 4 or name == "at rest", (name, chance)
+        assert chance > DOUBT_LEVEL / 4 or name == "at rest", (name, chance)
     for name in ("white", "smooth", "sine"):
         values = quiet[name]
-        assert limit_chance(clipped(values, np.quantile(values, 0.85)))[0] < LEVEL / 10, name
+        assert limit_chance(clipped(values, np.quantile(values, 0.85)))[0] < DOUBT_LEVEL / 10, name
 
 
 def test_the_step_that_numbers_are_written_in() -> None:

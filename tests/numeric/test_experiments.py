@@ -24,11 +24,11 @@ from faultspace.numeric import (
     identified_fault_space,
     read_stretches,
 )
-from faultspace.numeric import experiments as by_experiment
 from faultspace.numeric.data.joining import one_record
 from faultspace.numeric.data.records import recorded
-from faultspace.numeric.report.causes import residual_table
-from faultspace.numeric.result import Identification
+from faultspace.numeric.plant.answer import Identification
+from faultspace.numeric.plant.report.causes_told import residual_table
+from faultspace.numeric.plant.steps import several_experiments as by_experiment
 from tests.end_to_end.identify_runs import valid
 
 NOISE = 0.1

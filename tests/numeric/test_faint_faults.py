@@ -6,11 +6,11 @@ import numpy as np
 import scipy.signal
 
 from faultspace.base.arrays import Array
-from faultspace.numeric.rows.degree import excess, likelihood_ratio
-from faultspace.numeric.rows.evidence import arx_of
-from faultspace.numeric.rows.faint_faults import _errors, even_moments
-from faultspace.numeric.rows.joint import JointMoments, compared_fits, course, joint_moments, refitted
-from faultspace.numeric.rows.remainder import remainder
+from faultspace.numeric.method.rows.degree import excess, likelihood_ratio
+from faultspace.numeric.method.rows.evidence import arx_of
+from faultspace.numeric.method.rows.faint_faults import _errors, even_moments
+from faultspace.numeric.method.rows.joint import JointMoments, compared_fits, course, joint_moments, refitted
+from faultspace.numeric.method.rows.remainder import remainder
 
 N, P = 4000, 3
 

@@ -8,10 +8,10 @@ import scipy.stats
 from numpy.typing import NDArray
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.count import unlike_healthy
-from faultspace.numeric.count.against_healthy import fault_dimension_against_healthy, fault_direction_against_healthy
-from faultspace.numeric.count.healthy_model import healthy_reference, spectra
-from faultspace.numeric.count.largest_root import largest_root_probability, largest_root_quantile
+from faultspace.numeric.plant.healthy import unlike_healthy
+from faultspace.numeric.plant.healthy.against_healthy import fault_dimension_against_healthy, fault_direction_against_healthy
+from faultspace.numeric.plant.healthy.healthy_model import healthy_reference, spectra
+from faultspace.numeric.plant.healthy.largest_root import largest_root_probability, largest_root_quantile
 
 Array = NDArray[np.float64]
 MIX = np.random.default_rng(99).standard_normal((4, 4))
@@ -146,7 +146,7 @@ def test_bad_data_are_refused_with_a_reason() -> None:
 
 def test_the_largest_of_later_values_stays_within_its_ratio_of_the_largest_healthy_one(monkeypatch: pytest.MonkeyPatch) -> None:
     """With exponential tails about as rarely as the level says, and with normal ones more rarely; of few healthy values nothing follows."""
-    monkeypatch.setattr(unlike_healthy, "LEVEL", 0.1)
+    monkeypatch.setattr(unlike_healthy, "HEALTHY_LEVEL", 0.1)
     draw = np.random.default_rng(31)
     most = unlike_healthy.largest_ratio(200, 1000)
     beyond = {

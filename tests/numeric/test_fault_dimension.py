@@ -9,9 +9,9 @@ import scipy.signal
 from numpy.typing import NDArray
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.count.hankel_ranks import hankel_triangle, hankel_values
-from faultspace.numeric.count.one_row import kernel_row, window_moments
-from faultspace.numeric.count.rank_gap import fault_dimension
+from faultspace.numeric.method.ranks.hankel_ranks import hankel_triangle, hankel_values
+from faultspace.numeric.method.ranks.one_row import kernel_row, window_moments
+from faultspace.numeric.method.ranks.rank_gap import fault_dimension
 from tests.thorough import every
 
 Array = NDArray[np.float64]

@@ -13,13 +13,13 @@ import scipy.optimize
 from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import FaultSpectra, SpaceUncertainty, StateSpaceModel, fault_space_bound
-from faultspace.numeric.bound import space_information as room
-from faultspace.numeric.bound.spectra import filtered, white
-from faultspace.numeric.count.windows import observed_coordinates
-from faultspace.numeric.model.models import observability_matrix
-from faultspace.numeric.model.weighted_reduction import circle
-from faultspace.numeric.space.result import kernel_conditions, orthonormal
-from faultspace.numeric.space.uncertainty import turned_by_model, turned_by_rows
+from faultspace.numeric.method.model.models import observability_matrix
+from faultspace.numeric.method.model.weighted_reduction import circle
+from faultspace.numeric.method.ranks.sample_windows import observed_coordinates
+from faultspace.numeric.method.space.estimate import kernel_conditions, orthonormal
+from faultspace.numeric.method.space.space_uncertainty import turned_by_model, turned_by_rows
+from faultspace.numeric.study.bound import space_information as room
+from faultspace.numeric.study.bound.driving_spectra import filtered, white
 
 Bound = Callable[[StateSpaceModel, Array, Array, FaultSpectra, int], SpaceUncertainty]
 Matrices = tuple[Array, ...]

@@ -8,8 +8,9 @@ import pytest
 import faultspace as fs
 from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData
-from faultspace.numeric import ReducedModel, modelling
-from faultspace.numeric.count.exactness import driven_exactly, obeys_exactly
+from faultspace.numeric import ReducedModel
+from faultspace.numeric.method.ranks.exactness import driven_exactly, obeys_exactly
+from faultspace.numeric.plant.steps import modelling
 from tests.numeric.test_experiments import PLANT, F, G, in_states_of
 
 

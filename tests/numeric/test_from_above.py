@@ -7,11 +7,11 @@ import pytest
 
 from faultspace.base.arrays import Array
 from faultspace.numeric import StateSpaceModel, fault_space_by_rows
-from faultspace.numeric.rows import space
-from faultspace.numeric.rows.degree import least_degree, misfits
-from faultspace.numeric.rows.from_above import divided, from_above
-from faultspace.numeric.rows.joint import JointMoments, course, joint_moments
-from faultspace.numeric.space.basis import KernelBasis
+from faultspace.numeric.method.rows import space_by_rows as space
+from faultspace.numeric.method.rows.degree import least_degree, misfits
+from faultspace.numeric.method.rows.from_above import divided, from_above
+from faultspace.numeric.method.rows.joint import JointMoments, course, joint_moments
+from faultspace.numeric.method.space.basis import KernelBasis
 
 
 def test_a_factor_is_divided_out() -> None:

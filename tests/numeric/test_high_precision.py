@@ -21,13 +21,14 @@ from faultspace.exact.algebra.matrices import Matrix, rank
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.structure.signals import hankel, simulate
 from faultspace.exact.system.systems import ResidualSystem
-from faultspace.numeric.count.hankel_ranks import hankel_values
-from faultspace.numeric.count.rank_gap import fault_dimension
-from faultspace.numeric.model.compression import Blocks, Compression, compress
-from faultspace.numeric.model.models import StateSpaceModel
-from faultspace.numeric.model.past_inputs import pi_moesp, pi_moesp_from_compression
-from faultspace.numeric.model.residuals import residual
-from faultspace.numeric.rounding.conditioning import (
+from faultspace.numeric.method.model.compression import Blocks, Compression, compress
+from faultspace.numeric.method.model.models import StateSpaceModel
+from faultspace.numeric.method.model.past_inputs import pi_moesp, pi_moesp_from_compression
+from faultspace.numeric.method.model.residuals import residual
+from faultspace.numeric.method.ranks.hankel_ranks import hankel_values
+from faultspace.numeric.method.ranks.rank_gap import fault_dimension
+from faultspace.numeric.method.signal.reconstruction import reconstruct_fault
+from faultspace.numeric.study.rounding.conditioning import (
     BackwardError,
     Setting,
     by_gram,
@@ -40,8 +41,7 @@ from faultspace.numeric.rounding.conditioning import (
     reflections_error,
     setting,
 )
-from faultspace.numeric.rounding.residual_conditioning import fault_signal_error, fitted_state_error
-from faultspace.numeric.signal.reconstruction import reconstruct_fault
+from faultspace.numeric.study.rounding.residual_conditioning import fault_signal_error, fitted_state_error
 from tests.numeric import high_precision as precise
 from tests.numeric.exact_cases import ExactCase, exact_case, floats
 from tests.numeric.rounding_bounds import given_state_error, noisy_range, singular_value_error

@@ -208,7 +208,7 @@ def found() -> Any:
 
 
 def test_the_sample_time_of_the_data_goes_where_the_model_goes(found: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("faultspace.numeric.report.files.pictures", lambda *_: [])  # they take long
+    monkeypatch.setattr("faultspace.numeric.plant.report.result_files.pictures", lambda *_: [])  # they take long
     assert found.dt == pytest.approx(DT)
     assert found.to_scipy().dt == found.dt
     found.to_mat(tmp_path / "m.mat")
@@ -249,6 +249,6 @@ def test_without_pandas_it_is_said_what_to_install(found: Any, monkeypatch: pyte
     def without(name: str) -> Any:
         raise ImportError(name)
 
-    monkeypatch.setattr("faultspace.numeric.report.export.import_module", without)
+    monkeypatch.setattr("faultspace.numeric.plant.report.other_programs.import_module", without)
     with pytest.raises(ImportError, match="pip install pandas"):
         found.to_pandas()

@@ -14,12 +14,12 @@ import scipy.signal
 from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import Spectra, StateSpaceModel, Uncertainty, cramer_rao
-from faultspace.numeric.bound import information_bound
-from faultspace.numeric.bound.information_bound import relative_error
-from faultspace.numeric.bound.spectra import filtered, through, total, white
-from faultspace.numeric.model.invariants import off_gauge, state_space, system_matrix
-from faultspace.numeric.model.uncertainty import uncertainty_of
-from faultspace.numeric.model.weighted_reduction import Reduction
+from faultspace.numeric.method.model.invariants import off_gauge, state_space, system_matrix
+from faultspace.numeric.method.model.uncertainty import uncertainty_of
+from faultspace.numeric.method.model.weighted_reduction import Reduction
+from faultspace.numeric.study.bound import information_bound
+from faultspace.numeric.study.bound.driving_spectra import filtered, through, total, white
+from faultspace.numeric.study.bound.information_bound import relative_error
 
 Bound = Callable[[StateSpaceModel, Spectra, int], Uncertainty]
 

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 import faultspace as fs
 from faultspace.base.errors import InvalidData
-from faultspace.numeric import ReducedModel, StateSpaceModel, arx_reduction, identified_fault_space, isolate, modelling
-from faultspace.numeric.choice import noise_mix
-from faultspace.numeric.model.moesp_model import MoespModel
-from faultspace.numeric.rows.known_noise import space_in_known_noise, state_units, whitening
+from faultspace.numeric import ReducedModel, StateSpaceModel, arx_reduction, identified_fault_space, isolate
+from faultspace.numeric.method.model.moesp_model import MoespModel
+from faultspace.numeric.method.rows.known_noise import space_in_known_noise, state_units, whitening
+from faultspace.numeric.plant.steps import modelling
+from faultspace.numeric.plant.steps.choice import noise_mix
 
 Array = NDArray[np.float64]
 PLANT = StateSpaceModel([[0.7, 0.2], [-0.3, 0.5]], np.eye(2), [[1.0, 0.5], [0.2, 1.0], [1.0, -1.0]], np.zeros((3, 2)))

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from faultspace.numeric import fault_dimension
-from faultspace.numeric.count import residual_laws
+from faultspace.numeric.method.ranks import residual_laws
 
 
 def two_faults(seed: int) -> NDArray[np.float64]:

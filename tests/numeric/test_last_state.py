@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from faultspace.numeric import arx_reduction, identified_fault_space
-from faultspace.numeric.model.last_state import last_state
-from faultspace.numeric.rows.degree import LeastDegree, excess, least_degree, misfits
-from faultspace.numeric.rows.joint import course, fitted, joint_moments, refitted
+from faultspace.numeric.method.model.last_state import last_state
+from faultspace.numeric.method.rows.degree import LeastDegree, excess, least_degree, misfits
+from faultspace.numeric.method.rows.joint import course, fitted, joint_moments, refitted
 from tests.numeric.planted import joint_record, planted
 
 

@@ -12,9 +12,9 @@ import pytest
 
 from faultspace.exact.limits.experiments import read_experiment
 from faultspace.exact.limits.moesp import PopulationLimits, limit
-from faultspace.numeric.model.compression import compress
-from faultspace.numeric.model.past_inputs import pi_moesp
-from faultspace.numeric.model.past_outputs import po_moesp
+from faultspace.numeric.method.model.compression import compress
+from faultspace.numeric.method.model.past_inputs import pi_moesp
+from faultspace.numeric.method.model.past_outputs import po_moesp
 from tests.numeric.predicted_limits import floats, invariants, predicted_model, simulated
 
 SAMPLES, SEEDS, ERRORS = 100_000, 8, 5.0

@@ -11,12 +11,12 @@ from scipy.signal import lfilter
 
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import StateSpaceModel, arx_reduction, changes_since_healthy, residual
-from faultspace.numeric.count.against_healthy import fault_dimension_against_healthy
-from faultspace.numeric.count.detectable import visible_white_faults
-from faultspace.numeric.count.healthy_model import healthy_reference
-from faultspace.numeric.count.mean_shift import mean_about_zero, mean_reference, mean_shift
-from faultspace.numeric.signal.explained_share import noise_share
-from faultspace.numeric.space.shift_isolation import gain_errors
+from faultspace.numeric.method.space.shift_isolation import gain_errors
+from faultspace.numeric.plant.healthy.against_healthy import fault_dimension_against_healthy
+from faultspace.numeric.plant.healthy.detectable import visible_white_faults
+from faultspace.numeric.plant.healthy.explained_share import noise_share
+from faultspace.numeric.plant.healthy.healthy_model import healthy_reference
+from faultspace.numeric.plant.healthy.mean_shift import mean_about_zero, mean_reference, mean_shift
 
 Array = NDArray[np.float64]
 UNITS = np.array([1e-6, 1.0, 1e6])

@@ -14,11 +14,11 @@ import pytest
 import scipy.signal
 from numpy.typing import NDArray
 
-from faultspace.numeric.count.against_healthy import fault_dimension_against_healthy, fault_direction_against_healthy
-from faultspace.numeric.count.healthy_model import healthy_reference
-from faultspace.numeric.model.moesp_model import MoespModel
-from faultspace.numeric.model.past_inputs import pi_moesp
-from faultspace.numeric.model.residuals import residual
+from faultspace.numeric.method.model.moesp_model import MoespModel
+from faultspace.numeric.method.model.past_inputs import pi_moesp
+from faultspace.numeric.method.model.residuals import residual
+from faultspace.numeric.plant.healthy.against_healthy import fault_dimension_against_healthy, fault_direction_against_healthy
+from faultspace.numeric.plant.healthy.healthy_model import healthy_reference
 
 Array = NDArray[np.float64]
 FOLDER = os.environ.get("FAULTSPACE_DATA")

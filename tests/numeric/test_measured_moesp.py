@@ -14,9 +14,9 @@ import pytest
 from numpy.typing import NDArray
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.model.models import StateSpaceModel, observability_matrix
-from faultspace.numeric.model.past_inputs import pi_moesp
-from faultspace.numeric.model.past_outputs import po_moesp
+from faultspace.numeric.method.model.models import StateSpaceModel, observability_matrix
+from faultspace.numeric.method.model.past_inputs import pi_moesp
+from faultspace.numeric.method.model.past_outputs import po_moesp
 
 Array = NDArray[np.float64]
 FOLDER = os.environ.get("FAULTSPACE_DATA")

@@ -8,7 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.model.models import BLOCK, PIECE, Simulator, StateSpaceModel, observability_matrix
+from faultspace.numeric.method.model.models import BLOCK, PIECE, Simulator, StateSpaceModel, observability_matrix
 
 Array = NDArray[np.float64]
 

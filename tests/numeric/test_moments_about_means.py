@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from faultspace.base.arrays import Array
-from faultspace.numeric.rows import joint
-from faultspace.numeric.rows.fault_count import count_faults
-from faultspace.numeric.rows.joint import joint_moments
-from faultspace.numeric.rows.space import fault_space_by_rows
-from faultspace.numeric.space.tapered_moments import about_means
+from faultspace.numeric.method.rows import joint
+from faultspace.numeric.method.rows.fault_count import count_faults
+from faultspace.numeric.method.rows.joint import joint_moments
+from faultspace.numeric.method.rows.space_by_rows import fault_space_by_rows
+from faultspace.numeric.method.space.tapered_moments import about_means
 from tests.numeric.test_experiments import PLANT, A, C
 
 

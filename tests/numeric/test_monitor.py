@@ -18,9 +18,9 @@ import scipy.stats
 import faultspace as fs
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import Alarm, Monitor, StateSpaceModel, arx_reduction
-from faultspace.numeric.monitor.innovation_form import Predictor, innovation_form
-from faultspace.numeric.monitor.statistics import TESTS, Bank, Settings, roots
-from faultspace.numeric.monitor.thresholds import calibrate, ideal_thresholds, simulated
+from faultspace.numeric.plant.monitor.innovation_form import Predictor, innovation_form
+from faultspace.numeric.plant.monitor.statistics import TESTS, Bank, Settings, roots
+from faultspace.numeric.plant.monitor.thresholds import calibrate, ideal_thresholds, simulated
 
 PLANT = StateSpaceModel([[0.8, 0.3], [-0.3, 0.7]], [[1.0], [0.5]], [[1.0, 0.0], [0.3, 1.0]], [[0.0], [0.2]])
 NOTHING = StateSpaceModel(np.zeros((0, 0)), np.zeros((0, 1)), np.zeros((2, 0)), np.zeros((2, 1)))

@@ -19,8 +19,8 @@ import pytest
 import faultspace as fs
 from faultspace.base.errors import InvalidData, InvalidInput
 from faultspace.numeric import identify
-from faultspace.numeric.monitor import saving
-from faultspace.numeric.report.files import MODEL, of_monitor
+from faultspace.numeric.plant.monitor import saving
+from faultspace.numeric.plant.report.result_files import MODEL, of_monitor
 from tests.numeric.test_monitor import PLANT, made, record, same
 
 SCHEMA = json.loads((Path(fs.numeric.__file__).parent / "schemas" / "monitor.schema.json").read_text())

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.signal import lfilter
 
 from faultspace.numeric import StateSpaceModel, identify
-from faultspace.numeric.count.news import news_beyond_healthy
+from faultspace.numeric.plant.healthy.news import news_beyond_healthy
 
 Array = NDArray[np.float64]
 K, N = 300, 600

@@ -11,8 +11,8 @@ from scipy.signal import lfilter
 
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import fault_onset
-from faultspace.numeric.signal import change_scan
-from faultspace.numeric.signal.change_scan import choose_lags, located, rows_of, scan
+from faultspace.numeric.plant.changes import change_scan
+from faultspace.numeric.plant.changes.change_scan import choose_lags, located, rows_of, scan
 
 Array = NDArray[np.float64]
 

@@ -7,8 +7,8 @@ import pytest
 
 from faultspace.base.arrays import Array
 from faultspace.numeric import Identification, StateSpaceModel, identify
-from faultspace.numeric.count.mean_shift import mean_about_zero
-from faultspace.numeric.report.summary import summary
+from faultspace.numeric.plant.healthy.mean_shift import mean_about_zero
+from faultspace.numeric.plant.report.summary import summary
 
 PLANT = StateSpaceModel([[0.8, 0.2], [-0.2, 0.7]], [[1.0, 0.3], [0.2, -0.8]], [[1.0, 0.0], [0.5, 1.0], [0.0, 1.0]], np.zeros((3, 2)))
 N, K, POINT = 600, 300, np.array([40.0, -7.0, 2700.0, 5.0, -120.0])

@@ -9,8 +9,8 @@ import scipy.signal
 from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import StateSpaceModel, arx_reduction, arx_reduction_experiments, identify
-from faultspace.numeric.model.held_out_orders import order_left_open
-from faultspace.numeric.model.order_evidence import OrderRow, weighed
+from faultspace.numeric.method.model.held_out_orders import order_left_open
+from faultspace.numeric.method.model.order_evidence import OrderRow, weighed
 
 PLANT = StateSpaceModel(
     [[0.9, 0.2, 0.0], [0.0, -0.6, 0.0], [0.0, 0.0, 0.3]], [[1.0], [1.0], [1.0]], [[1.0, 1.0, 1.0], [1.0, -1.0, 0.5]], [[0.3], [0.0]]

@@ -12,12 +12,12 @@ import pytest
 from faultspace.base.page import Picture, Tile, page
 from faultspace.numeric import fault_onset, identify, isolate_shift
 from faultspace.numeric.data.records import recorded, stored
-from faultspace.numeric.findings import Findings
-from faultspace.numeric.model.models import StateSpaceModel
-from faultspace.numeric.report import spectra
-from faultspace.numeric.report.page import CAPTIONS, report, tiles
-from faultspace.numeric.report.pictures import PICTURES
-from faultspace.numeric.report.summary import advice, summary
+from faultspace.numeric.method.model.models import StateSpaceModel
+from faultspace.numeric.plant.report import residual_spectra as spectra
+from faultspace.numeric.plant.report.result_page import CAPTIONS, report, tiles
+from faultspace.numeric.plant.report.result_pictures import PICTURES
+from faultspace.numeric.plant.report.summary import advice, summary
+from faultspace.numeric.plant.steps.findings import Findings
 
 PLANT = StateSpaceModel([[0.5, 0.2], [0.0, 0.3]], [[1.0], [0.5]], [[1.0, 0.0], [0.3, 1.0]], [[0.0], [0.0]])
 EVIL = "<script>alert('y')</script>"

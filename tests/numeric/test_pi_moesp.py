@@ -9,11 +9,11 @@ import pytest
 from numpy.typing import NDArray
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.model.compression import compress, merge
-from faultspace.numeric.model.input_matrices import by_moesp, by_output_error
-from faultspace.numeric.model.models import StateSpaceModel, observability_matrix
-from faultspace.numeric.model.past_inputs import choose_order, pi_moesp, pi_moesp_experiments, pi_moesp_from_compression
-from faultspace.numeric.model.past_outputs import po_moesp
+from faultspace.numeric.method.model.compression import compress, merge
+from faultspace.numeric.method.model.input_matrices import by_moesp, by_output_error
+from faultspace.numeric.method.model.models import StateSpaceModel, observability_matrix
+from faultspace.numeric.method.model.past_inputs import choose_order, pi_moesp, pi_moesp_experiments, pi_moesp_from_compression
+from faultspace.numeric.method.model.past_outputs import po_moesp
 
 Array = NDArray[np.float64]
 

@@ -17,10 +17,10 @@ import pytest
 from numpy.typing import NDArray
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric import drawing
-from faultspace.numeric.count.rank_gap import FaultDimension, fault_dimension
-from faultspace.numeric.report.pictures import draw_signal
-from faultspace.numeric.signal.reconstruction import reconstruct_fault
+from faultspace.numeric.method import plotting as drawing
+from faultspace.numeric.method.ranks.rank_gap import FaultDimension, fault_dimension
+from faultspace.numeric.method.signal.reconstruction import reconstruct_fault
+from faultspace.numeric.plant.report.result_pictures import draw_signal
 
 Figure: Any = pytest.importorskip("matplotlib.figure", reason="matplotlib is not installed").Figure
 Array = NDArray[np.float64]

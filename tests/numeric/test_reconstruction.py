@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.signal.reconstruction import Reconstruction, reconstruct_fault
-from faultspace.numeric.signal.smoother import linear_recursion
-from faultspace.numeric.signal.zeros import fault_zeros, output_nulling
-from faultspace.numeric.space.by_ranks import fault_space
+from faultspace.numeric.method.signal.pair_zeros import fault_zeros, output_nulling
+from faultspace.numeric.method.signal.reconstruction import Reconstruction, reconstruct_fault
+from faultspace.numeric.method.signal.smoother import linear_recursion
+from faultspace.numeric.method.space.by_ranks import fault_space
 from tests.numeric.planted import Planted, coloured, faults, paper_example, planted, simulate
 
 ROUNDING = 1e-10

@@ -18,22 +18,13 @@ import pytest
 from faultspace import example_data as made
 from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData, InvalidInput
-from faultspace.numeric import (
-    StateSpaceModel,
-    arx_reduction,
-    count_faults,
-    fault_space_by_rows,
-    identify,
-    pi_moesp,
-    pipeline,
-    read_record,
-    residual,
-)
+from faultspace.numeric import StateSpaceModel, arx_reduction, count_faults, fault_space_by_rows, identify, pi_moesp, read_record, residual
 from faultspace.numeric.data import files
 from faultspace.numeric.data.records import Record
 from faultspace.numeric.data.validation import PIECE
-from faultspace.numeric.model import arx_windows
-from faultspace.numeric.report.folders import MANIFEST
+from faultspace.numeric.method.model import arx_windows
+from faultspace.numeric.plant import pipeline
+from faultspace.numeric.plant.report.folders import MANIFEST
 
 N = 2500
 

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from faultspace.numeric.model import recursion
-from faultspace.numeric.model.input_matrices import by_output_error
-from faultspace.numeric.model.models import StateSpaceModel
-from faultspace.numeric.model.recursion import GROUP, Recursion, power_basis
+from faultspace.numeric.method.model import recursion
+from faultspace.numeric.method.model.input_matrices import by_output_error
+from faultspace.numeric.method.model.models import StateSpaceModel
+from faultspace.numeric.method.model.recursion import GROUP, Recursion, power_basis
 
 Array = NDArray[np.float64]
 HARD = ("integrators", "far from normal")  # rounding may cost them the short basis

@@ -16,9 +16,9 @@ import pytest
 
 from faultspace.base.arrays import Array
 from faultspace.exact import Experiment, arx_limit, limit, read_experiment
-from faultspace.numeric.model.arx import adjoint, polynomial
-from faultspace.numeric.model.invariants import transfer
-from faultspace.numeric.model.weighted_reduction import Reduction, circle, descend
+from faultspace.numeric.method.model.arx import adjoint, polynomial
+from faultspace.numeric.method.model.invariants import transfer
+from faultspace.numeric.method.model.weighted_reduction import Reduction, circle, descend
 from faultspace.proofs.evidence.kept_experiments import WITHOUT_RANK, kept
 
 ANGLES = 1024

@@ -5,9 +5,9 @@ import pytest
 from numpy.typing import ArrayLike
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.count.rank_gap import fault_dimension
-from faultspace.numeric.model.models import StateSpaceModel
-from faultspace.numeric.model.residuals import FORWARD, residual, split
+from faultspace.numeric.method.model.models import StateSpaceModel
+from faultspace.numeric.method.model.residuals import FORWARD, residual, split
+from faultspace.numeric.method.ranks.rank_gap import fault_dimension
 
 
 def state_space(A: ArrayLike, B: ArrayLike, C: ArrayLike, D: ArrayLike) -> StateSpaceModel:

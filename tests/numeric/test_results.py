@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from faultspace import example_data, monte_carlo, numeric
 from faultspace.base.errors import InvalidData, InvalidInput
 from faultspace.base.sheets import Shown, counted
-from faultspace.numeric import drawing
-from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.method import plotting as drawing
+from faultspace.numeric.method.model.models import StateSpaceModel
 
 Array = NDArray[np.float64]
 RESULTS = (
@@ -279,7 +279,7 @@ def test_a_package_that_is_not_there_is_named(
         return without(name) if name.partition(".")[0] == package else importlib.import_module(name, *rest)
 
     monkeypatch.setattr(builtins, "__import__", without)
-    for module in ("faultspace.numeric.drawing", "faultspace.numeric.model.models"):
+    for module in ("faultspace.numeric.method.plotting", "faultspace.numeric.method.model.models"):
         monkeypatch.setattr(f"{module}.import_module", absent)
     with pytest.raises(ImportError, match=advice):
         getattr(chain["whole"], ask)()

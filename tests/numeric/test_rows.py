@@ -21,15 +21,16 @@ from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.numeric import identify, record_from
-from faultspace.numeric.model.asymptotic_likelihood import arx_reduction
-from faultspace.numeric.rows import bootstrap, laws, remainder
-from faultspace.numeric.rows.evidence import Evidence
-from faultspace.numeric.rows.fault_count import count_faults
-from faultspace.numeric.rows.joint import ROUNDING, course, even_split, fitted, joint_moments, joint_moments_experiments
-from faultspace.numeric.rows.space import fault_space_by_rows
-from faultspace.numeric.space.distances import principal_angles
-from faultspace.numeric.space.largest import largest_fault_space
-from faultspace.numeric.space.tapered_moments import CrossMoments
+from faultspace.numeric.method.model.asymptotic_likelihood import arx_reduction
+from faultspace.numeric.method.rows import bootstrap, remainder
+from faultspace.numeric.method.rows import law_tests as laws
+from faultspace.numeric.method.rows.evidence import Evidence
+from faultspace.numeric.method.rows.fault_count import count_faults
+from faultspace.numeric.method.rows.joint import ROUNDING, course, even_split, fitted, joint_moments, joint_moments_experiments
+from faultspace.numeric.method.rows.space_by_rows import fault_space_by_rows
+from faultspace.numeric.method.space.distances import principal_angles
+from faultspace.numeric.method.space.largest import largest_fault_space
+from faultspace.numeric.method.space.tapered_moments import CrossMoments
 from tests.numeric.exact_cases import floats, matrix, stable_state_matrix
 from tests.numeric.planted import Planted, coloured, joint_record, planted, simulate
 
@@ -314,7 +315,7 @@ def test_a_model_that_is_there_already_saves_its_making() -> None:
     y, u = joint_record(plant(15, 3, 1), 15, 600, 40)
     model = arx_reduction(y, u, order=3)
     alone = count_faults(y, u, order=3)
-    with patch("faultspace.numeric.rows.evidence.arx_windows", side_effect=AssertionError):
+    with patch("faultspace.numeric.method.rows.evidence.arx_windows", side_effect=AssertionError):
         found = count_faults(y, u, order=3, model=model)
     assert found.n_v == alone.n_v == 1 and abs(found.tests[-1].level - alone.tests[-1].level) < 1e-3
 

@@ -15,8 +15,8 @@ from faultspace import example_data as plant
 from faultspace import numeric
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import ShiftIsolation, StateSpaceModel, arx_reduction, isolate_shift
-from faultspace.numeric.report.causes import isolation_lines
-from faultspace.numeric.space import shift_isolation
+from faultspace.numeric.method.space import shift_isolation
+from faultspace.numeric.plant.report.causes_told import isolation_lines
 
 Array = NDArray[np.float64]
 MODEL = StateSpaceModel(plant.A, plant.B, plant.C, plant.D)

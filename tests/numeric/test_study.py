@@ -12,15 +12,23 @@ import numpy as np
 import pytest
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.space.distances import containment_distance, subspace_distance
+from faultspace.numeric.method.space.distances import containment_distance, subspace_distance
 from faultspace.numeric.study import runs
-from faultspace.numeric.study.cases import LIKELIHOOD, PAPER, Case, Errors
-from faultspace.numeric.study.example_v import behaviour_ranks, exact_fault_space, example_v, lines, published_ranks, recorded_errors, tally
-from faultspace.numeric.study.example_v import system as example_system
 from faultspace.numeric.study.groups import by_phase, by_zeros, median_interval
+from faultspace.numeric.study.paper_example import (
+    behaviour_ranks,
+    exact_fault_space,
+    example_v,
+    lines,
+    published_ranks,
+    recorded_errors,
+    tally,
+)
+from faultspace.numeric.study.paper_example import system as example_system
+from faultspace.numeric.study.random_systems import pencil_zeros, study_system
 from faultspace.numeric.study.runs import NOISE_GAIN, response, study_run
 from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, STUDIES, monte_carlo
-from faultspace.numeric.study.systems import pencil_zeros, study_system
+from faultspace.numeric.study.study_cases import LIKELIHOOD, PAPER, Case, Errors
 from tests.numeric.published_error import author_error
 from tests.thorough import THOROUGH
 
@@ -39,7 +47,7 @@ def errors(case: Case) -> Errors:
 def test_a_seed_gives_the_same_systems_whatever_the_kernels_of_blas(kernel: str) -> None:
     """Where OpenBLAS has no kernel of this name, it warns and takes what it would have taken; then this compares a thing with itself."""
     ask = """import numpy as np
-from faultspace.numeric.study.systems import study_system
+from faultspace.numeric.study.random_systems import study_system
 for n_zeros in range(4):
     for seed in range(3):
         found = study_system(n_zeros, seed)

@@ -11,14 +11,13 @@ import pytest
 
 from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.model import toeplitz_stacks
-from faultspace.numeric.model.toeplitz_stacks import least_directions
-from faultspace.numeric.study import case_stacks, system_stacks
+from faultspace.numeric.study import case_stacks, system_stacks, toeplitz_stacks
 from faultspace.numeric.study.case_stacks import published_cases
-from faultspace.numeric.study.cases import Case, Numbered, published_case
+from faultspace.numeric.study.random_systems import study_system
 from faultspace.numeric.study.studies import PUBLISHED, monte_carlo
+from faultspace.numeric.study.study_cases import Case, Numbered, published_case
 from faultspace.numeric.study.system_stacks import study_systems
-from faultspace.numeric.study.systems import study_system
+from faultspace.numeric.study.toeplitz_stacks import least_directions
 
 
 def numbered(seed: int, systems: int) -> list[Numbered]:

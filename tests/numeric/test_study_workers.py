@@ -17,10 +17,10 @@ import pytest
 from faultspace.base import workers as base_workers
 from faultspace.base.errors import InvalidData
 from faultspace.base.tasks import Died, as_they_come
-from faultspace.numeric.study.cases import Case, Numbered, one_by_one, published_case
 from faultspace.numeric.study.groups import Plan
 from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, Study, monte_carlo
-from faultspace.numeric.study.workers import done_by
+from faultspace.numeric.study.study_cases import Case, Numbered, one_by_one, published_case
+from faultspace.numeric.study.study_workers import done_by
 
 
 def squared(number: int) -> int:

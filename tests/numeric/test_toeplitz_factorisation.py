@@ -9,12 +9,12 @@ import pytest
 from numpy.typing import NDArray
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.count.windows import hankel_factor
-from faultspace.numeric.model.toeplitz_factorisation import toeplitz_factorisation
-from faultspace.numeric.space.distances import subspace_distance
-from faultspace.numeric.space.result import kernel_conditions
+from faultspace.numeric.method.ranks.sample_windows import hankel_factor
+from faultspace.numeric.method.space.distances import subspace_distance
+from faultspace.numeric.method.space.estimate import kernel_conditions
+from faultspace.numeric.study.random_systems import StudySystem, study_system
 from faultspace.numeric.study.runs import study_run
-from faultspace.numeric.study.systems import StudySystem, study_system
+from faultspace.numeric.study.toeplitz_factorisation import toeplitz_factorisation
 from tests.numeric.published_error import author_error
 
 Array = NDArray[np.float64]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from faultspace.numeric.count.mean_shift import UNIT_ROOT
+from faultspace.numeric.plant.healthy.mean_shift import UNIT_ROOT
 
 CHANCE = 0.99
 SAMPLES, WALKS = 2000, 20_000

@@ -10,14 +10,14 @@ import pytest
 from numpy.typing import NDArray
 
 from faultspace.numeric import ReducedModel, SpaceUncertainty, StateSpaceModel, arx_reduction, identified_fault_space
-from faultspace.numeric.model.invariants import system_matrix, transfer
-from faultspace.numeric.model.models import observability_matrix
-from faultspace.numeric.model.valleys import Valley, valleys
-from faultspace.numeric.model.weighted_reduction import Reduction, circle, descend
-from faultspace.numeric.space.distances import principal_angles
-from faultspace.numeric.space.result import SpaceOfValley
+from faultspace.numeric.method.model.invariants import system_matrix, transfer
+from faultspace.numeric.method.model.models import observability_matrix
+from faultspace.numeric.method.model.valleys import Valley, valleys
+from faultspace.numeric.method.model.weighted_reduction import Reduction, circle, descend
+from faultspace.numeric.method.space.distances import principal_angles
+from faultspace.numeric.method.space.estimate import SpaceOfValley
+from faultspace.numeric.study.random_systems import StudySystem, study_system
 from faultspace.numeric.study.runs import coloured_noise, response, study_faults
-from faultspace.numeric.study.systems import StudySystem, study_system
 
 Array = NDArray[np.float64]
 

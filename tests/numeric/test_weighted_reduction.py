@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from faultspace.base.arrays import Array
-from faultspace.numeric.model.invariants import (
+from faultspace.numeric.method.model.invariants import (
     half_transfers,
     markov_jacobian,
     off_gauge,
@@ -19,9 +19,9 @@ from faultspace.numeric.model.invariants import (
     transfer,
     transfer_jacobian,
 )
-from faultspace.numeric.model.models import StateSpaceModel
-from faultspace.numeric.model.uncertainty import uncertainty_of
-from faultspace.numeric.model.weighted_reduction import Reduction, balanced, circle, descend, ladder, spectral_radius
+from faultspace.numeric.method.model.models import StateSpaceModel
+from faultspace.numeric.method.model.uncertainty import uncertainty_of
+from faultspace.numeric.method.model.weighted_reduction import Reduction, balanced, circle, descend, ladder, spectral_radius
 
 N_STATES = 3
 

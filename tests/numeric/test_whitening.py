@@ -9,9 +9,9 @@ import pytest
 
 from faultspace.base.arrays import Array
 from faultspace.numeric import StateSpaceModel
-from faultspace.numeric.count.healthy_model import STRETCH, lagged, spectra
-from faultspace.numeric.count.triangles import stacked_triangle
-from faultspace.numeric.monitor.innovation_form import FOLDS, innovation_form
+from faultspace.numeric.method.ranks.triangles import stacked_triangle
+from faultspace.numeric.plant.healthy.healthy_model import STRETCH, lagged, spectra
+from faultspace.numeric.plant.monitor.innovation_form import FOLDS, innovation_form
 
 STATELESS = StateSpaceModel(np.zeros((0, 0)), np.zeros((0, 2)), np.zeros((3, 0)), np.zeros((3, 2)))
 

@@ -14,12 +14,12 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ...base.progress import Progress, silent
 from ...exact.limits.experiments import Experiment
-from ...numeric.bound.information_bound import COUNT, cramer_rao, relative_error
-from ...numeric.bound.spectra import Spectra, through, total
-from ...numeric.model.asymptotic_likelihood import arx_reduction
-from ...numeric.model.models import StateSpaceModel
-from ...numeric.model.past_inputs import pi_moesp
-from ...numeric.model.past_outputs import po_moesp
+from ...numeric.method.model.asymptotic_likelihood import arx_reduction
+from ...numeric.method.model.models import StateSpaceModel
+from ...numeric.method.model.past_inputs import pi_moesp
+from ...numeric.method.model.past_outputs import po_moesp
+from ...numeric.study.bound.driving_spectra import Spectra, through, total
+from ...numeric.study.bound.information_bound import COUNT, cramer_rao, relative_error
 from .experiments import floats, model, packaged, record, spectrum
 
 EXPERIMENT, SAMPLES, RECORDS, BLOCK_ROWS = "independent-fault", 1000, 20, 10

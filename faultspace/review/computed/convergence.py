@@ -18,10 +18,10 @@ from ...base.arrays import Array
 from ...base.progress import Progress, silent
 from ...exact.limits.experiments import Experiment
 from ...exact.limits.moesp import limit, markov_parameters
-from ...numeric.model.input_matrices import by_output_error
-from ...numeric.model.models import StateSpaceModel
-from ...numeric.model.past_inputs import pi_moesp
-from ...numeric.model.past_outputs import po_moesp
+from ...numeric.method.model.input_matrices import by_output_error
+from ...numeric.method.model.models import StateSpaceModel
+from ...numeric.method.model.past_inputs import pi_moesp
+from ...numeric.method.model.past_outputs import po_moesp
 from .experiments import model, packaged, record
 
 LENGTHS = (300, 1000, 3000, 10_000, 30_000, 100_000)

@@ -10,7 +10,7 @@ from collections import Counter
 from typing import Any
 
 from ...exact.structure.record import analyze
-from ...numeric.study.example_v import IDENTIFIED_WINDOW, PUBLISHED_THRESHOLD, SAMPLES, SHOWN_WINDOWS, example_v, published_ranks
+from ...numeric.study.paper_example import IDENTIFIED_WINDOW, PUBLISHED_THRESHOLD, SAMPLES, SHOWN_WINDOWS, example_v, published_ranks
 from ...numeric.study.studies import SEED
 from ...proofs.evidence.families import paper_example
 

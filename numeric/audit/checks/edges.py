@@ -21,8 +21,8 @@ from faultspace.exact.algebra.matrices import Matrix, rank
 from faultspace.exact.structure.signals import hankel, simulate
 from faultspace.exact.system.systems import ResidualSystem
 
-from ...rounding.residual_conditioning import fault_signal_error
-from ...signal.reconstruction import reconstruct_fault
+from ...method.signal.reconstruction import reconstruct_fault
+from ...study.rounding.residual_conditioning import fault_signal_error
 from ..making.fault_records import signal_bound
 from ..records import Check, Demand, Function, Measurement, Refused, Severity, Sides
 from ..vectors.exact_comparison import lifted

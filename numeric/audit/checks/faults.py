@@ -23,7 +23,7 @@ from faultspace.exact.system.systems import ResidualSystem
 
 from ....base.errors import InvalidData
 from ....base.sheets import counted
-from ...space.distances import compare_subspaces
+from ...method.space.distances import compare_subspaces
 from ..records import Broken, Check, Demand, Function, Measurement, Severity, Sides
 from ..vectors.exact_comparison import lifted
 from ..vectors.fault_vectors import FaultVector, channel_units

@@ -34,8 +34,8 @@ from faultspace.exact.system.systems import ResidualSystem
 
 from ....base.arrays import Array
 from ....base.processes import family, resident
-from ...model.models import StateSpaceModel
-from ...space.by_ranks import noise_free_fault_space
+from ...method.model.models import StateSpaceModel
+from ...method.space.by_ranks import noise_free_fault_space
 from ..records import Broken, Check, Function, Measurement, Severity
 from ..vectors.exact_comparison import distances, markov, polynomial_from_the_top
 from ..vectors.fault_vectors import FaultVector

@@ -25,8 +25,8 @@ from faultspace.exact.system.systems import ResidualSystem, System
 
 from ....base.arrays import Array
 from ....base.errors import InvalidData
-from ...model.models import StateSpaceModel
-from ...space.distances import compare_subspaces
+from ...method.model.models import StateSpaceModel
+from ...method.space.distances import compare_subspaces
 from ..making.planting import digits
 from ..records import Broken, Check, Demand, Function, Measurement, Refused, Severity, Sides
 from ..vectors.rationals import floats, matrix, signs

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from ....base.arrays import Array
-from ...model.models import StateSpaceModel
+from ...method.model.models import StateSpaceModel
 from ..records import Check, Demand, Function, Measurement, Severity
 from ..signatures import ARGUMENTS
 from ..vectors.inputs import with_input

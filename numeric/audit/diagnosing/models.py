@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ....base.arrays import Array
-from ...model.models import StateSpaceModel
+from ...method.model.models import StateSpaceModel
 from .. import reference
 from ..records import Function
 from .scales import sizes, to_one

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ....base.arrays import Array
-from ...model.models import StateSpaceModel
+from ...method.model.models import StateSpaceModel
 from ..records import Function
 from .scales import sizes, to_one
 from .suspicions import SAME, answer_changed, asked_otherwise, seen

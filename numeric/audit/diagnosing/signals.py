@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ....base.arrays import Array
-from ...model.models import StateSpaceModel
+from ...method.model.models import StateSpaceModel
 from ..records import Function
 from .models import orders
 from .scales import sizes, to_one

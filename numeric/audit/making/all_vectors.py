@@ -33,8 +33,8 @@ from faultspace.exact.limits.moesp import limit
 from faultspace.exact.structure.record import Structure, analyze
 from faultspace.exact.system.systems import FaultySystem, ResidualSystem
 
-from ...model.compression import EPS
-from ...rounding.conditioning import SMALL
+from ...method.model.compression import EPS
+from ...study.rounding.conditioning import SMALL
 from ..vectors.exact_comparison import roots
 from ..vectors.fault_vectors import FaultView
 from ..vectors.rationals import ROUNDING, floats, matrix, scaled

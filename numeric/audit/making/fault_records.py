@@ -24,13 +24,13 @@ from faultspace.exact.structure.signals import excitation_matrix, hankel, simula
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.exact.system.windows import window_matrix
 
-from ...model.compression import EPS
-from ...model.models import StateSpaceModel
-from ...model.residuals import residual
-from ...rounding.conditioning import SMALL
-from ...rounding.residual_conditioning import fault_signal_error, fitted_state_error
-from ...signal.reconstruction import reconstruct_fault
-from ...space.by_ranks import noise_free_fault_space
+from ...method.model.compression import EPS
+from ...method.model.models import StateSpaceModel
+from ...method.model.residuals import residual
+from ...method.signal.reconstruction import reconstruct_fault
+from ...method.space.by_ranks import noise_free_fault_space
+from ...study.rounding.conditioning import SMALL
+from ...study.rounding.residual_conditioning import fault_signal_error, fitted_state_error
 from ..vectors.fault_vectors import AS_GIVEN, HALF, VIEWS, FaultVector, FaultView, UnexcitingVector, channel_units, in_channel_units
 from ..vectors.inputs import LONG_WINDOW, unexciting_inputs, with_input
 from ..vectors.rationals import floats, fractions, matrix, scaled

@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from ....base.arrays import Array
-from ...model.compression import compress
-from ...model.past_inputs import pi_moesp, pi_moesp_from_compression
-from ...rounding.conditioning import ModelError, by_gram, by_qr, moesp_error, noise_free_range, output_error_error, setting
+from ...method.model.compression import compress
+from ...method.model.past_inputs import pi_moesp, pi_moesp_from_compression
+from ...study.rounding.conditioning import ModelError, by_gram, by_qr, moesp_error, noise_free_range, output_error_error, setting
 from ..vectors.exact_comparison import markov, matched, poles, polynomial_from_the_top, transfer
 from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import POINTS, IdentificationVector

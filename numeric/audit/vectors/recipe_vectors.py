@@ -19,7 +19,7 @@ import scipy  # its folders are loaded when they are first used
 from faultspace.exact.system.systems import FaultySystem, ResidualSystem
 
 from ....base.arrays import Array
-from ...model.models import StateSpaceModel
+from ...method.model.models import StateSpaceModel
 from .exact_comparison import matched, poles
 from .rationals import floats, matrix, residual_system, signs
 

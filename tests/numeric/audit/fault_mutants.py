@@ -14,10 +14,10 @@ import numpy as np
 
 from faultspace.numeric.audit import reference
 from faultspace.numeric.audit.adapter import ZeroStructure
-from faultspace.numeric.count.windows import hankel_factor
-from faultspace.numeric.model import toeplitz_factorisation
-from faultspace.numeric.model.models import StateSpaceModel, observability_matrix
-from faultspace.numeric.space.by_ranks import noise_free_fault_space
+from faultspace.numeric.method.model.models import StateSpaceModel, observability_matrix
+from faultspace.numeric.method.ranks.sample_windows import hankel_factor
+from faultspace.numeric.method.space.by_ranks import noise_free_fault_space
+from faultspace.numeric.study import toeplitz_factorisation
 from tests.numeric.audit.breaking import mutant, patched, views
 from tests.numeric.audit.identification_mutants import RANGE
 

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from faultspace.numeric.audit import reference
-from faultspace.numeric.model import compression, input_matrices
-from faultspace.numeric.model.compression import Blocks, Compression
-from faultspace.numeric.model.past_outputs import po_moesp
+from faultspace.numeric.method.model import compression, input_matrices
+from faultspace.numeric.method.model.compression import Blocks, Compression
+from faultspace.numeric.method.model.past_outputs import po_moesp
 from tests.numeric.audit.breaking import mutant, patched
 
 

@@ -18,8 +18,8 @@ from faultspace.numeric.audit.checks.catalogue import chosen
 from faultspace.numeric.audit.diagnosing.explaining import SUSPICIONS, explained
 from faultspace.numeric.audit.records import Check
 from faultspace.numeric.audit.running import audit
-from faultspace.numeric.model.models import StateSpaceModel
-from faultspace.numeric.space.by_ranks import noise_free_fault_space
+from faultspace.numeric.method.model.models import StateSpaceModel
+from faultspace.numeric.method.space.by_ranks import noise_free_fault_space
 from tests.thorough import every
 
 MODEL = "exact-recovery[n3-u2-p2]"

@@ -15,9 +15,9 @@ from faultspace.numeric.audit.running import ExpectedFailure
 from faultspace.numeric.audit.vectors.rationals import floats
 from faultspace.numeric.audit.vectors.shipped_vectors import shipped
 from faultspace.numeric.audit.vectors.trouble import default_troubles
-from faultspace.numeric.space.distances import two_sided_error
+from faultspace.numeric.method.space.distances import two_sided_error
+from faultspace.numeric.study.random_systems import N_V, study_system
 from faultspace.numeric.study.runs import study_run
-from faultspace.numeric.study.systems import N_V, study_system
 
 # Twenty lags of forty samples would be as many coefficients as numbers; and a window of PI-MOESP that is too short is no window of ours.
 OTHERWISE = (

@@ -24,8 +24,8 @@ from faultspace.numeric.audit.vectors.exact_comparison import markov, polynomial
 from faultspace.numeric.audit.vectors.fault_vectors import VIEWS, in_channel_units
 from faultspace.numeric.audit.vectors.inputs import unexciting_inputs
 from faultspace.numeric.audit.vectors.shipped_vectors import KINDS, floats, fractions, matrix, scaled, shipped, signs
-from faultspace.numeric.model.models import StateSpaceModel
-from faultspace.numeric.space.by_ranks import noise_free_fault_space
+from faultspace.numeric.method.model.models import StateSpaceModel
+from faultspace.numeric.method.space.by_ranks import noise_free_fault_space
 from tests.thorough import every
 
 DATA = files("faultspace.numeric.audit.vectors").joinpath("data")

@@ -9,7 +9,7 @@ import numpy as np
 
 from faultspace.numeric.audit import reference
 from faultspace.numeric.audit.adapter import ZeroStructure
-from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.method.model.models import StateSpaceModel
 from tests.numeric.audit.unseen.form import Mutants, careful
 from tests.numeric.audit.unseen.residual import without_free
 from tests.numeric.audit.unseen.systems import Record, channel, faulty, general, joined, jordan, plant, record

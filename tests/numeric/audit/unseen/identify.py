@@ -8,7 +8,7 @@ import numpy as np
 import scipy.linalg
 
 from faultspace.numeric.audit import reference
-from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.method.model.models import StateSpaceModel
 from tests.numeric.audit.unseen.form import Mutants
 from tests.numeric.audit.unseen.systems import jordan, plant, record
 from tests.numeric.audit.unseen.witnesses import recovers

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from faultspace.numeric.audit import reference
-from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.method.model.models import StateSpaceModel
 from tests.numeric.audit.unseen.form import Mutants, careful
 from tests.numeric.audit.unseen.identify import regressed
 from tests.numeric.audit.unseen.systems import Record, plant, record

@@ -64,7 +64,7 @@ def begins_a_sample_late(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any
 @SIGNAL.broken("zeros inside the unit circle", restores(INSIDE, 1e-6))
 def fits_the_initial_state(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any:
     """x0 is fitted with the signal though it is given, by which a zero hides the first samples."""
-    from faultspace.numeric.signal.reconstruction import reconstruct_fault
+    from faultspace.numeric.method.signal.reconstruction import reconstruct_fault
 
     return reconstruct_fault(r, A, F, C, G).v
 
@@ -238,7 +238,7 @@ def truncates_high_orders(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> An
 @SIGNAL.broken("zeros outside the unit circle", restores(OUTSIDE, 1e-6, hidden=60))
 def reflects_zeros_outside(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any:
     """Where a zero is outside the unit circle the signal is passed through the all-pass that reflects it."""
-    from faultspace.numeric.signal.zeros import finite_zeros
+    from faultspace.numeric.method.signal.pair_zeros import finite_zeros
 
     v = reference.reconstruct(r, A, F, C, G, x0).copy()
     for q in finite_zeros(A, F, C, G):
@@ -254,7 +254,7 @@ def reflects_zeros_outside(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> A
 )
 def returns_the_smallest_of_many_signals(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any:
     """Where r does not determine v the least-norm one is returned."""
-    from faultspace.numeric.signal.reconstruction import reconstruct_fault
+    from faultspace.numeric.method.signal.reconstruction import reconstruct_fault
 
     return reconstruct_fault(r, A, F, C, G, x0=x0).v
 

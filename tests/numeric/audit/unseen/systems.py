@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 import scipy.linalg
 
-from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.method.model.models import StateSpaceModel
 
 Matrices = tuple[Any, Any, Any, Any]
 

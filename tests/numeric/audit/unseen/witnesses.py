@@ -22,7 +22,7 @@ from scipy.optimize import linear_sum_assignment
 
 from faultspace.numeric.audit.adapter import guarded
 from faultspace.numeric.audit.records import Broken, Refused
-from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.method.model.models import StateSpaceModel
 from tests.numeric.audit.unseen.form import Function, Witness
 from tests.numeric.audit.unseen.systems import Faulty, Matrices, Record, free_responses
 

@@ -1,0 +1,159 @@
+"""This measures how far one subspace lies from another.
+
+    principal_angles        radians, ascending, min(dim U, dim V) of them, accurate when they are tiny and when they
+                            are right
+    containment_distance    sine of the largest angle from U to V: 0 iff span U lies in span V, 1 if dim U > dim V
+    subspace_distance       the same both ways, the larger: 0 iff the spans are equal, 1 if the dimensions differ
+    compare_subspaces       all of these and the dimensions in one record
+    containment_error       the angles over the metric's own maximum, sqrt(n_v) pi/2: from 0 to 1; as published it is over n_v pi/2
+    two_sided_error         the metric for different dimensions over its maximum: 0 iff the spans are equal
+
+A subspace is given by a matrix whose independent columns span it; a subspace without columns, (d, 0), is {0}.
+Neither the scale of columns nor the choice of basis matters. Source: [YL16] for subspaces of different dimensions;
+[G25] section V for the published error.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ....base.arrays import Array
+from ....base.errors import InvalidData
+from ....base.sheets import counted
+from ....base.threads import one_thread
+
+# Columns of unit length with a singular value below this are taken for dependent.
+DEPENDENT = 1e-12
+
+
+@dataclass(frozen=True)
+class SubspaceComparison:
+    """The comparison sets span U and span V side by side; the distances are sines, and `angles` are radians in ascending order."""
+
+    dimensions: tuple[int, int]
+    angles: Array
+    first_in_second: float
+    second_in_first: float
+
+    @property
+    def same_dimension(self) -> bool:
+        """Say whether the two-sided distance can be below one at all."""
+        return self.dimensions[0] == self.dimensions[1]
+
+    @property
+    def two_sided(self) -> float:
+        """Return the larger of both containment distances: |P_U - P_V| in the spectral norm."""
+        return max(self.first_in_second, self.second_in_first)
+
+    def __str__(self) -> str:
+        largest = np.degrees(self.angles[-1]) if self.angles.size else 0.0
+        same = "" if self.same_dimension else "; different dimensions, so the two-sided distance is 1 whatever the angles"
+        first, second = self.dimensions
+        return f"dimensions {first} and {second}, largest principal angle {largest:.3g} degrees{same}"
+
+
+def principal_angles(U: object, V: object) -> Array:
+    """Return principal angles in radians, ascending, between the column spans of U (d, k) and V (d, l): min(k, l) of them.
+
+    Each comes from its sine and its cosine together, so that an angle of 1e-12 is as accurate as one of 1. Raises
+    InvalidData for different numbers of rows, dependent columns, or entries that are not finite.
+    """
+    first, second = _orthonormal(U, "U"), _orthonormal(V, "V")
+    _same_space(first, second)
+    return _angles(first, second)
+
+
+def containment_distance(U: object, V: object) -> float:
+    """Return the sine of the largest angle from span U to span V: 0 iff U lies in V, 1 if dim U > dim V. Raises as
+    `principal_angles`.
+    """
+    return compare_subspaces(U, V).first_in_second
+
+
+@one_thread()
+def subspace_distance(U: object, V: object) -> float:
+    """Return the two-sided distance of span U (d, k) and span V (d, l): the sine of the largest angle either way.
+
+    It is 0 iff the spans are equal and 1 where their dimensions differ; neither the choice of basis nor the units of
+    a column matter. U and V are of any type that numpy takes for an array. It tells how far
+    an estimated fault space is from a known one. Raises InvalidData for different numbers of rows, dependent columns, or entries that
+    are not finite. Source: [YL16], [GVL13] section 6.4.3.
+
+    >>> from faultspace.numeric import subspace_distance
+    >>> subspace_distance([[1, 0], [0, 1], [0, 0]], [[2, 1], [0, 1], [0, 0]]), subspace_distance([[1], [0]], [[0], [1]])
+    (0.0, 1.0)
+    """
+    return compare_subspaces(U, V).two_sided
+
+
+def compare_subspaces(U: object, V: object) -> SubspaceComparison:
+    """Compare dimensions, angles and both containments of span U (d, k) and span V (d, l). Raises as `principal_angles`."""
+    first, second = _orthonormal(U, "U"), _orthonormal(V, "V")
+    _same_space(first, second)
+    k, other = first.shape[1], second.shape[1]
+    angles = _angles(first, second)
+    largest = float(np.sin(angles[-1])) if angles.size else 0.0
+    return SubspaceComparison((k, other), angles, 1.0 if k > other else largest, 1.0 if other > k else largest)
+
+
+def containment_error(truth: object, estimate: object) -> float:
+    """Return how far span `truth` (d, k) is from lying in span `estimate` (d, l): angle norm over sqrt(k) pi/2, from 0 to 1.
+
+    Directions of `truth` for which `estimate` has no room count as right angles. Raises as `principal_angles`.
+    """
+    angles, k, other = _angles_and_dimensions(truth, estimate)
+    return float(np.sqrt((np.sum(angles**2) + max(k - other, 0) * np.pi**2 / 4) / max(k, 1)) / (np.pi / 2))
+
+
+def two_sided_error(truth: object, estimate: object) -> float:
+    """Return the metric of [YL16] on subspaces of all dimensions over its maximum, from 0 (equal spans) to 1. Raises as
+    `principal_angles`.
+
+    Each dimension that one span has more than the other counts as a right angle.
+    """
+    angles, k, other = _angles_and_dimensions(truth, estimate)
+    return float(np.sqrt((np.sum(angles**2) + abs(k - other) * np.pi**2 / 4) / max(k, other, 1)) / (np.pi / 2))
+
+
+def _angles_and_dimensions(U: object, V: object) -> tuple[Array, int, int]:
+    comparison = compare_subspaces(U, V)
+    return comparison.angles, *comparison.dimensions
+
+
+def _angles(first: Array, second: Array) -> Array:
+    """Return cosines see right angles well, sines small ones; the arc tangent of both sees all. Orthonormal columns in."""
+    if first.shape[1] < second.shape[1]:
+        first, second = second, first
+    if second.shape[1] == 0:
+        return np.zeros(0)
+    across = first.T @ second
+    cosines = np.linalg.svd(across, compute_uv=False)
+    sines = np.linalg.svd(second - first @ across, compute_uv=False)[::-1]
+    return np.sort(np.arctan2(sines[: cosines.size], cosines))
+
+
+def _orthonormal(matrix: object, name: str) -> Array:
+    columns = np.array(matrix, dtype=float)
+    if columns.ndim == 1:
+        columns = columns[:, None]
+    if columns.ndim != 2 or not np.all(np.isfinite(columns)):
+        raise InvalidData(f"{name}: got an array of shape {columns.shape}; a basis is a (d, k) matrix of finite numbers")
+    lengths = np.linalg.norm(columns, axis=0)
+    if columns.shape[1] == 0:
+        return columns
+    if columns.shape[1] > columns.shape[0] or lengths.min() == 0:
+        raise InvalidData(
+            f"{name}: {counted(columns.shape[1], 'column')} in dimension {columns.shape[0]} "
+            f"{'is' if columns.shape[1] == 1 else 'are'} dependent; pass a basis"
+        )
+    left, values, _ = np.linalg.svd(columns / lengths, full_matrices=False)
+    if values[-1] <= DEPENDENT * values[0]:
+        raise InvalidData(f"{name}: columns are dependent (singular values down to {values[-1]:.1e}); pass a basis")
+    return np.asarray(left)
+
+
+def _same_space(first: Array, second: Array) -> None:
+    if first.shape[0] != second.shape[0]:
+        raise InvalidData(f"U, V: got {first.shape[0]} and {second.shape[0]} rows; subspaces of one space have the same number")

@@ -1,0 +1,116 @@
+"""The statistics of a monitor, for one stream or for many side by side: by the same lines that watch, thresholds are calibrated.
+
+What comes in are innovations z (R, p) of R streams, uncorrelated and of deviation one without a fault, and the same errors s (R, p)
+output by output, each over its own deviation. What comes out is one number a test, (R, 4), in the order of TESTS:
+
+    residual      max_i |s_i|: one sample, one output
+    chi-square    sum of z'z over the last `window` samples, those of a window ago left out [BN93]
+    cusum         |S|, the multivariate CUSUM of Crosier [C88]: C = |S + z|, S := (S + z) (1 - k / C) where C > k, else 0, k = `shift` / 2
+    hankel        the largest root of the moments M of Hankel columns h = [z(k-s+1); ..; z(k)], M := (1 - 1 / memory) M + h h' / memory,
+                  followed by one step of the power method a sample, v := M v / |M v|. Without a fault the moments are I, up to chance. The
+                  roots of M beyond the threshold count its rank without the noise, and by as much as a block row adds to that rank, so many
+                  signals the faults have: their rank gap
+
+Each costs the same at every sample, whatever came before: the first is of one sample, the second has a ring of `window` numbers, the others
+are recursions. A CUSUM is cut off at a length, `ceiling`, and z is shortened to 30 deviations beyond its usual length, so that all of them
+come back soon when a fault goes, and one wild sample is forgotten.
+
+Settings     window, shift, block rows, memory
+Bank         the state of the four statistics
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ....base.arrays import Array
+
+TESTS = ("residual", "chi-square", "cusum", "hankel")
+MEMORY = 5  # windows that the moments remember
+LONGEST = 30.0  # deviations, beside the usual root of p, to which an innovation is shortened
+REMEMBERED = ("sums", "energies", "squares", "column", "moments", "direction")  # by a bank, from sample to sample
+HEIGHT, MOST_ROWS = 30, 10  # numbers in a Hankel column, and block rows, at most; two rows at least
+
+
+@dataclass(frozen=True)
+class Settings:
+    """The tests are of p outputs: `window` samples of the chi-square test, `shift` in deviations for which the CUSUM is made."""
+
+    p: int
+    window: int
+    shift: float
+
+    @property
+    def memory(self) -> int:
+        """Return the samples that the moments of Hankel columns remember."""
+        return MEMORY * self.window
+
+    @property
+    def rows(self) -> int:
+        """Return the block rows of a Hankel column."""
+        return int(np.clip(HEIGHT // self.p, 2, MOST_ROWS))
+
+
+class Bank:
+    """The bank holds the state of the statistics of R streams; `update` takes one sample of each."""
+
+    def __init__(self, settings: Settings, streams: int, ceiling: float = np.inf) -> None:
+        p, height = settings.p, settings.p * settings.rows
+        self.settings, self._ceiling = settings, ceiling
+        self.sums = np.zeros((streams, p))
+        self.energies = np.full((streams, settings.window), float(p))
+        self.squares = np.zeros((streams, settings.window, p))
+        self._place = 0
+        self._longest = np.sqrt(p) + LONGEST
+        self.column = np.zeros((streams, height))
+        self.moments = np.tile(np.eye(height), (streams, 1, 1))
+        self._change = np.empty_like(self.moments)
+        self.direction = np.full((streams, height), 1 / np.sqrt(height))
+
+    @property
+    def scores(self) -> Array:
+        """Return the sums (R, p) of s_i^2 over the window."""
+        return np.asarray(self.squares.sum(axis=1))
+
+    def state(self) -> dict[str, Array]:
+        """Return what the statistics remember, each array with an axis of the streams first; `_place` is where the window goes on."""
+        return {name: getattr(self, name) for name in REMEMBERED} | {"place": np.array(self._place)}
+
+    def resume(self, state: Mapping[str, Array]) -> None:
+        """Go on from what another bank of these settings remembers."""
+        for name in REMEMBERED:
+            setattr(self, name, np.array(state[name]))
+        self._place = int(state["place"])
+
+    def update(self, z: Array, s: Array) -> Array:
+        """Return the statistics (R, 4) at this sample."""
+        add = np.add.reduce  # `np.sum` without what it looks at first, which takes longer than so few numbers
+        z = z * np.minimum(1.0, self._longest / np.maximum(np.sqrt(add(z * z, axis=1)), 1.0))[:, None]
+        window, memory, p = self.settings.window, self.settings.memory, self.settings.p
+        self.energies[:, self._place] = add(z * z, axis=1)
+        self.squares[:, self._place] = s * s
+        self._place = (self._place + 1) % window
+        total = self.sums + z
+        length = np.sqrt(add(total * total, axis=1))
+        kept = np.minimum(np.maximum(length - self.settings.shift / 2, 0.0), self._ceiling)
+        self.sums = total * (kept / np.where(length > 0, length, 1.0))[:, None]
+        self.column[:, :-p] = self.column[:, p:]
+        self.column[:, -p:] = z
+        np.multiply(self.column[:, :, None], self.column[:, None, :] / memory, out=self._change)
+        self.moments *= 1 - 1 / memory
+        self.moments += self._change
+        image = np.matmul(self.moments, self.direction[:, :, None])[:, :, 0]
+        root = np.sqrt(add(image * image, axis=1))
+        self.direction = image / root[:, None]
+        found = np.empty((len(z), len(TESTS)))
+        found[:, 0], found[:, 1] = np.maximum.reduce(np.abs(s), axis=1), add(self.energies, axis=1)
+        found[:, 2], found[:, 3] = kept, root
+        return found
+
+
+def roots(moments: Array) -> Array:
+    """Return the eigenvalues of moments (any, any), falling."""
+    return np.asarray(np.linalg.eigvalsh(moments)[::-1])
