@@ -17,6 +17,7 @@ from ..base.errors import InvalidInput, in_file, quote_path
 from ..base.messages import say
 from ..base.progress import working
 from ..proofs.checking import CheckedFile, ask_rocq, check_file
+from ..proofs.rocq.build import believed, told
 from ..proofs.trust import checker
 from .consoles import answers, paragraph, print_json
 from .failures import NOT_AS_EXPECTED
@@ -53,7 +54,9 @@ def run(names: Sequence[str], *, systems: Sequence[str], rocq: bool = False, as_
 def _with_rocq(files: Sequence[CheckedFile]) -> list[CheckedFile]:
     try:
         with working("asking Rocq") as tell:
-            return ask_rocq(files, tell)
+            asked = ask_rocq(files, tell)
+        say(f"Rocq: {told(believed())}")
+        return asked
     except InvalidInput as error:
         raise InvalidInput(f"--{error}") from None
 

@@ -23,6 +23,7 @@ from types import FrameType
 from .. import __version__
 from ..base.errors import InvalidInput
 from ..base.messages import LONGEST_LINE, say
+from ..base.others_text import lines
 from .argument_names import as_options
 
 ANSWERED, NOT_AS_EXPECTED, BAD_INPUT, OUR_ERROR = 0, 1, 2, 70
@@ -97,7 +98,7 @@ def asks_report(error: Exception) -> int:
     The traceback comes too where TRACEBACK is set.
     """
     if os.environ.get(TRACEBACK):
-        traceback.print_exception(error)
+        sys.stderr.write(lines("".join(traceback.format_exception(error))))
     frames = traceback.extract_tb(error.__traceback__)
     place = f" in {frames[-1].name}, line {frames[-1].lineno} of {os.path.basename(frames[-1].filename)}" if frames else ""
     what = " ".join(f"{type(error).__name__}: {error}".split())

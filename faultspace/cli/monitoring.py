@@ -17,6 +17,7 @@ import numpy as np
 
 from ..base.errors import InvalidInput, in_file, quote_path, shorten
 from ..base.messages import say
+from ..base.others_text import lines, printable
 from ..base.progress import evenly, working
 from ..base.sheets import counted
 from ..numeric.data.files import read_record
@@ -192,10 +193,10 @@ def _first(samples: Iterator[np.ndarray | None], count: int, inputs: Sequence[st
 
 
 def _tell(alarm: Alarm, as_json: bool) -> None:
-    sys.stdout.write((json.dumps({"alarm": alarm.to_json()}) if as_json else alarm.line) + "\n")
+    sys.stdout.write((json.dumps({"alarm": alarm.to_json()}) if as_json else printable(alarm.line)) + "\n")
     sys.stdout.flush()
 
 
 def _conclude(watch: Monitor, as_json: bool) -> None:
-    sys.stdout.write((json.dumps({"summary": watch.to_json()}) if as_json else f"\n{watch.summary()}") + "\n")
+    sys.stdout.write((json.dumps({"summary": watch.to_json()}) if as_json else lines(f"\n{watch.summary()}")) + "\n")
     sys.stdout.flush()

@@ -66,4 +66,4 @@ def _reading(result: ReadingResult) -> Iterator[tuple[str, str]]:
         yield "theorem:", f"{name}, locked as SHA-256 {lock}"
     for certificate in outcome.certificates:
         yield "certificate:", f"{certificate['kind']}, SHA-256 {sha256(certificate)}"
-    yield "seconds:", f"{result.seconds:.1f}"
+    yield "seconds:", f"{result.seconds:.1f}, beside the making of the certificates that readings share"

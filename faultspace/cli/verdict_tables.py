@@ -39,7 +39,7 @@ def verdict_table(report: Report) -> Table:
     table.add_column("verdict", no_wrap=True)
     table.add_column("statement / hypotheses / evidence", overflow="fold")
     table.add_column("certificates", no_wrap=True)
-    table.add_column("seconds", no_wrap=True, justify="right")
+    table.add_column("own s", no_wrap=True, justify="right")
     for claim in report.claims:
         printed = Text.assemble((claim.claim.statement, "bold"), (f"  ({claim.claim.reference}) {_standing(claim)}", "dim"))
         table.add_row(Text(claim.claim.id, style="bold"), verdict_text(claim.verdict, claim.expected, "\n"), printed, "", "")

@@ -19,6 +19,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.errors import InvalidInput, in_file, quote_path, shorten
+from ...base.others_text import printable
 from .text_tables import TextTable
 
 RESTARTED = None  # in place of a line: what follows is a table of its own
@@ -116,7 +117,7 @@ class TableStream:
 
     def _columns(self, table: TextTable) -> list[int]:
         found = []
-        for name in self._names:
+        for name in map(printable, self._names):
             match = _COLUMN.match(name)
             if table.names is not None and name in table.names:
                 found.append(table.names.index(name))

@@ -32,6 +32,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.errors import InvalidInput, shorten
+from ...base.others_text import printable
 from ...base.sheets import counted
 
 DECIMALS = {".": "a point", ",": "a comma"}
@@ -80,10 +81,10 @@ class TextTable:
         fields = _fields(lines[0], separator)
         decimal = _decimal(lines[1:] or lines, separator)
         named = any(_number(field, decimal) is None for field in fields)
-        names = tuple(map(_windows, fields)) if named else None
-        if not named:
+        names = tuple(printable(_windows(field)) for field in fields) if named else None
+        if names is None:
             return cls(path, separator, names, len(fields), beginning[0][0] - 1, None, decimal)
-        _names_once(fields)
+        _names_once(names)
         units = _units(lines, separator, decimal)
         return cls(path, separator, names, len(fields), beginning[0 if units is None else 1][0], units, decimal)
 

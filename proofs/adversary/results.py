@@ -10,6 +10,9 @@
 A record keeps the SHA-256 of the statement that it attacked: where the words have changed since, it is said to be out of date and
 counts for nothing. Checked again: the quantity at the stored point, the exact decision at the point of a witness with its certificates,
 the signs at both ends of a bracket. Floats of another machine may differ in the last digits: values are compared to a hundredth.
+
+What the file tells of a search was done when the file was made: a run says "on record" of it. It looks whether the file has the SHA-256
+that it tells, and searches again from their seeds what takes at most AGAIN seconds, of which it tells what it did itself.
 """
 
 from __future__ import annotations
@@ -26,6 +29,7 @@ from typing import Any
 
 from ...base.progress import Progress
 from ...base.tasks import ordered, processes
+from ...base.writing import write_text
 from ..evidence.attacks import Aim, Attack, Attacked, Trial
 from ..trust.structure_certificates import Certificate, sha256
 from .catalogue import attacks_on, catalogue, statement_of
@@ -35,6 +39,8 @@ from .following import NOTHING
 FORMAT = "faultspace-adversary/1"
 FILE = "results.json"
 COUNTEREXAMPLE, CHANGE, NONE = "counterexample", "change of sign", "none found"
+AGAIN = 1.0  # a search on record that took so many seconds of a processor is done again in every run
+PATIENCE = 8  # and may take so many times as long, on a busy machine
 
 AttackRecord = dict[str, Any]
 
@@ -55,13 +61,20 @@ def write(records: Sequence[AttackRecord], path: Path) -> None:
     """Writes the file, in the order of the catalogue."""
     order = {attack.id: place for place, attack in enumerate(catalogue())}
     kept = sorted((record for record in records if record["attack"] in order), key=lambda record: order[record["attack"]])
-    path.write_text(json.dumps({"format": FORMAT, "attacks": kept}, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    file = {"format": FORMAT, "sha256": _digest_of(kept), "attacks": kept}
+    write_text(path, json.dumps(file, indent=1, ensure_ascii=False) + "\n")
 
 
 @cache
 def stored() -> tuple[AttackRecord, ...]:
-    """Returns the records of the file that comes with the package."""
-    return tuple(json.loads(resources.files(__package__).joinpath(FILE).read_text(encoding="utf-8"))["attacks"])
+    """Returns the records of the package's file; each has under "whole" whether the file has the SHA-256 that it tells."""
+    file = json.loads(resources.files(__package__).joinpath(FILE).read_text(encoding="utf-8"))
+    whole = file.get("sha256") == _digest_of(file["attacks"])
+    return tuple({**record, "whole": whole} for record in file["attacks"])
+
+
+def _digest_of(records: Sequence[AttackRecord]) -> str:
+    return hashlib.sha256(json.dumps(records, sort_keys=True, ensure_ascii=False).encode()).hexdigest()
 
 
 def refuting(record: AttackRecord) -> bool:
@@ -155,17 +168,34 @@ def _digest(target: str) -> str | None:
 
 
 def _attacked(record: AttackRecord, attack: Attack | None) -> Attacked:
-    words = words_of(record)
+    words = words_of(record) if "whole" not in record else f"On record: {words_of(record)}"
+    if not record.get("whole", True):
+        return Attacked(record["attack"], words, False, f"not found again: {FILE} is not the file whose SHA-256 it tells")
     if record["statement_sha256"] != _digest(record["target"]):
         return Attacked(record["attack"], words, False, "out of date: the statement has changed since, so that the attack must run again")
     if attack is None:
         return Attacked(record["attack"], words, False, "out of date: the attack is no longer in the catalogue")
     trouble = _again(record, attack)
+    trial = None if trouble else _searched_again(record, attack)
+    if trial is not None:
+        against = trial.witness is not None or trial.bracket is not None
+        found = "a counterexample" if against else "no counterexample"
+        words += f"; the same search now: {trial.evaluations} values, {trial.decided} points decided exactly, {found}"
+        trouble = "not found again: the search found nothing, and finds something now" if against else None
     return Attacked(record["attack"], words, refuting(record) and trouble is None, trouble)
+
+
+def _searched_again(record: AttackRecord, attack: Attack) -> Trial | None:
+    """Return what a search on record comes to now, from its seed; None where it is not one of those that are done again."""
+    if "whole" not in record or refuting(record) or record["seconds"] > AGAIN:
+        return None
+    return pursue(attack, seconds=PATIENCE * AGAIN, seed=record["seed"])
 
 
 def _again(record: AttackRecord, attack: Attack) -> str | None:
     """Return what of a record is not found again; None where all of it is."""
+    if record["starts"] != attack.starts:
+        return f"not found again: the attack has {attack.starts} starts, and {record['starts']} were stored"
     if record["point"]:
         value, before = value_at(attack, record["point"]), record["nearest"]
         if abs(value - before) > 0.01 * max(value, before) and max(value, before) > NOTHING:

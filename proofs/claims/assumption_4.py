@@ -18,7 +18,7 @@ from ..evidence.families import adversarial, random_systems
 from ..evidence.kept_kernels import kernel_once
 from ..evidence.search import Box, Facts, Flags, systems_in_order
 from ..trust import structure_certificates as make
-from ..trust.structure_certificates import Certificate
+from ..trust.structure_certificates import Certificate, sha256
 from ..verdict.verdicts import Outcome, Verdict
 from ..verdict.workbench import Workbench, accepted, counterexample
 
@@ -81,7 +81,7 @@ def _on_data(bench: Workbench, *, excited: bool) -> Outcome:
     systems = [s for _, s in adversarial() if 0 < s.n <= 3] + list(
         islice(random_systems(QQ, 4000, seed=5, largest=3), 400 if bench.full else 30)
     )
-    tried = deficient = count = 0
+    tried, deficient, decided = 0, 0, set[str]()
     headline: tuple[Certificate, ...] = ()
     for system in systems:
         kernel = kernel_once(system)
@@ -97,15 +97,16 @@ def _on_data(bench: Workbench, *, excited: bool) -> Outcome:
         certificates = accepted(_gap_certificates(system, x0, v, s))
         gap = certificates[2]["statement"]["rank"] - certificates[1]["statement"]["rank"]
         if gap != system.m:
-            return Outcome(Verdict.REFUTED, f"fails on {system}, x(0) = {x0}, v = {v}, s = {s}", certificates, len(certificates))
-        tried, count, deficient = tried + 1, count + len(certificates), deficient + (not full)
+            return Outcome(Verdict.REFUTED, f"fails on {system}, x(0) = {x0}, v = {v}, s = {s}", certificates)
+        tried, deficient = tried + 1, deficient + (not full)
+        decided.update(map(sha256, certificates))
         headline = headline or certificates
     if not tried:
         return Outcome(Verdict.ERROR, "no trajectory meets the hypotheses")
     note = "" if excited else f", {deficient} of them with [X; V_(s+1)] rank-deficient"
     which = f"{tried} exact trajectories of left-invertible systems over Q, named and random, at s = max(lag, 1)"
     words = f"no counterexample found in {which}{note}"
-    return Outcome(Verdict.CERTIFIED, words, headline, count)
+    return Outcome(Verdict.CERTIFIED, words, headline, frozenset(decided))
 
 
 def _gap_certificates(system: ResidualSystem, x0: Matrix, v: Matrix, s: int) -> Iterable[Certificate]:

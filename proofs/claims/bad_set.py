@@ -60,26 +60,25 @@ def full_rank(bench: Workbench) -> Outcome:
 def codimension_two(bench: Workbench) -> Outcome:
     """Where (A, C) is observable, r >= 2 and zeta >= 1, the codimension is at least two: some line of P meets no bad one."""
     tried = [pencil for pencil in _pencils(bench) if pencil.observable and pencil.columns >= 2 and pencil.zeta >= 1]
-    count, missed = 0, 0
+    decided, missed = list[str](), 0
     headline: tuple[Certificate, ...] = ()
     for done, pencil in enumerate(tried):
         bench.progress("looking for lines without a bad P", done, len(tried))
         stated = bad_set(pencil).codimension
         if stated is not None and stated < 2:
             certificates = accepted(_kernel(pencil))
-            return Outcome(Verdict.REFUTED, f"codimension {stated} for {pencil.system}", certificates, len(certificates))
+            return Outcome(Verdict.REFUTED, f"codimension {stated} for {pencil.system}", certificates)
         line = _line(pencil)
         if line is None:
             missed += 1
             continue
-        accept(line)
-        count += 1
+        decided.append(accept(line))
         headline = headline or (line, *accepted(_kernel(pencil)))
-    if not count:
+    if not decided:
         return Outcome(Verdict.ERROR, "no line was found for any system")
     note = f"; for {missed} more by counting parameters alone" if missed else ""
-    words = f"on {count} systems, named and random over Q and GF(10007), by a line each{note}"
-    return Outcome(Verdict.CERTIFIED, words, headline, count + 2)
+    words = f"on {len(decided)} systems, named and random over Q and GF(10007), by a line each{note}"
+    return Outcome(Verdict.CERTIFIED, words, headline, frozenset(decided))
 
 
 def codimension_unobservable(bench: Workbench) -> Outcome:

@@ -44,7 +44,7 @@ def for_every_system(bench: Workbench) -> Outcome:
         "rational arithmetic beside the certificates"
     )
     certificates = accepted(made)
-    return Outcome(Verdict.REFUTED, message, certificates, len(certificates))
+    return Outcome(Verdict.REFUTED, message, certificates)
 
 
 def a_c_wrong(bench: Workbench) -> Outcome:

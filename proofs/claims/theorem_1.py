@@ -19,9 +19,9 @@ from ..evidence.parametric import inclusion_claim
 from ..evidence.questions import RANKS
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
-from ..trust.structure_certificates import Certificate
+from ..trust.structure_certificates import Certificate, sha256
 from ..verdict.verdicts import Outcome, Verdict
-from ..verdict.workbench import Workbench, accepted, certify_records, counterexample
+from ..verdict.workbench import Workbench, accepted, all_accepted, certify_records, counterexample
 from .common import identity
 
 BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
@@ -51,10 +51,10 @@ def n_plus_1_samples(bench: Workbench) -> Outcome:
     if longer:
         words = f"{longer[0].system} has a kernel row of degree {longer[0].kernel.lag}"
         certificates = accepted(_of_one(longer[0].system))
-        return Outcome(Verdict.REFUTED, words, certificates, len(certificates))
-    total, count = sum(e.weight for e in systems), sum(e.accepted for e in systems)
+        return Outcome(Verdict.REFUTED, words, certificates)
+    total = sum(e.weight for e in systems)
     words = f"{outcome.evidence}; by kernel rows, none of degree above n, every pair of the {total} systems of the corpus"
-    return replace(outcome, evidence=words, accepted=outcome.accepted + count)
+    return replace(outcome, evidence=words, decided=outcome.decided | all_accepted(systems))
 
 
 def lag_plus_1(bench: Workbench) -> Outcome:
@@ -78,10 +78,10 @@ def sharp(bench: Workbench) -> Outcome:
         idle, driven = (kernel_once(system) for system in shift_registers(n))
         pair = [make.window_equality(idle, driven, n), comparison_certificate(idle, driven)]
         if pair[1]["statement"]["window"] != n + 1:
-            return Outcome(Verdict.REFUTED, f"the shift registers of length {n} differ elsewhere", accepted(pair), 2)
+            return Outcome(Verdict.REFUTED, f"the shift registers of length {n} differ elsewhere", accepted(pair))
         certificates += [*pair, make.left_invertible(idle), make.left_invertible(driven)]
     words = f"by one witness for every n = 1..{largest}: the shift register of length n with F = 0 against F = e_n"
-    return Outcome(Verdict.CERTIFIED, words, accepted(certificates)[:8], len(certificates))
+    return Outcome(Verdict.CERTIFIED, words, accepted(certificates)[:8], frozenset(map(sha256, certificates)))
 
 
 def parametric(bench: Workbench) -> Outcome:

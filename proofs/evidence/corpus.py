@@ -87,9 +87,9 @@ class Evidence:
         return Evidence(self.origin, self.system, self.weight, answers)
 
     @property
-    def accepted(self) -> int:
-        """This is the number of certificates, all of them accepted, that the answers rest on."""
-        return sum(answer.accepted for answer in self.answers.values())
+    def accepted(self) -> frozenset[str]:
+        """These are the certificates that the answers rest on, all of them accepted, by their SHA-256."""
+        return frozenset().union(*(answer.accepted for answer in self.answers.values()))
 
     @property
     def kernel(self) -> KernelRepresentation:

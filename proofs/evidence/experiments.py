@@ -71,7 +71,7 @@ class LimitEvidence:
     state: StatePart | None
     predicted: bool
     weight: int
-    accepted: int
+    accepted: frozenset[str]
 
     @property
     def uncorrelated(self) -> bool:
@@ -114,11 +114,10 @@ def examine_experiment(origin: str, experiment: Experiment) -> LimitEvidence:
     """The evidence on an experiment: its limits certified, and what its signals are like."""
     found = limit(experiment)
     certificates = certificates_of(found)
-    for certificate in certificates:
-        accept(certificate)
+    decided = frozenset(map(accept, certificates))
     inside, outside, *inputs = (certificate["statement"] for certificate in certificates)
     ranks = [(one["joint_rank"], one["observability_rank"], one["limit_rank"]) for one in (inside, outside)]
-    return _evidence(origin, found, ranks, [(one["B"], one["D"]) for one in inputs], len(certificates))
+    return _evidence(origin, found, ranks, [(one["B"], one["D"]) for one in inputs], decided)
 
 
 def first_look(experiment: Experiment) -> LimitEvidence:
@@ -126,11 +125,15 @@ def first_look(experiment: Experiment) -> LimitEvidence:
     found = limit(experiment)
     ranks = [(one.joint_rank, one.observability_rank, one.rank) for one in (found.past_inputs, found.past_outputs)]
     inputs = [(one.B.to_json(), one.D.to_json()) for one in (found.true_AC, found.moesp) if one is not None]
-    return _evidence("first look", found, ranks, inputs, 0)
+    return _evidence("first look", found, ranks, inputs, frozenset())
 
 
 def _evidence(
-    origin: str, found: PopulationLimits, ranks: Sequence[tuple[int, int, int]], inputs: Sequence[tuple[Any, Any]], accepted: int
+    origin: str,
+    found: PopulationLimits,
+    ranks: Sequence[tuple[int, int, int]],
+    inputs: Sequence[tuple[Any, Any]],
+    accepted: frozenset[str],
 ) -> LimitEvidence:
     """Return the evidence; of both limits `ranks` has that of [O_s L], of O_s and of L, and `inputs` the B and D of the regressions."""
     experiment = found.experiment

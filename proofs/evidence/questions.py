@@ -1,7 +1,7 @@
 """What the claims ask of a single system: each question has certificates of its own, and what they state is read back as the answer.
 
     Question       its name, the certificates that answer it, and how the answer is read off them
-    Answer         what accepted certificates state, and how many they are
+    Answer         what accepted certificates state, and which they are
     answered       the certificates of a question made, accepted by the checker, and read
     RANKS, ...     the questions; QUESTIONS has all of them, in order
     MINIMAL, ZEROS what tells whether a system is minimal and left-invertible, and what tells all of its zeros
@@ -45,10 +45,10 @@ class Question(Generic[A]):
 
 @dataclass(frozen=True)
 class Answer(Generic[A]):
-    """This is what accepted certificates state, and their number."""
+    """This is what accepted certificates state, and their SHA-256."""
 
     value: A
-    accepted: int
+    accepted: frozenset[str]
 
 
 def answered(question: Question[A], kernel: KernelRepresentation) -> Answer[A]:
@@ -57,9 +57,8 @@ def answered(question: Question[A], kernel: KernelRepresentation) -> Answer[A]:
     Raises checker.Rejected or checker.Malformed where the checker does not accept one, and ArithmeticError where two of them disagree.
     """
     certificates = tuple(question.certificates(kernel))
-    for certificate in certificates:
-        accept(certificate)
-    return Answer(question.read(kernel, certificates), len(certificates))
+    decided = frozenset(map(accept, certificates))
+    return Answer(question.read(kernel, certificates), decided)
 
 
 # -- the ranks of all windows by kernel rows -------------------------------------------------------------------------------

@@ -41,7 +41,7 @@ class Pair:
     window: int
     equal: bool
     weight: int
-    accepted: int
+    accepted: frozenset[str]
 
     @property
     def size(self) -> tuple[int, ...]:

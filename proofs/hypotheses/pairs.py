@@ -43,7 +43,7 @@ class Compared:
     window: int | None
     equal: bool
     weight: int
-    accepted: int
+    accepted: frozenset[str]
 
     @property
     def size(self) -> tuple[int, ...]:
@@ -155,12 +155,12 @@ def columns_in_space(first: ResidualSystem, second: ResidualSystem) -> bool:
 
 
 def _agreeing(bench: Workbench) -> Iterator[Compared]:
-    """Yield every pair that agrees on s samples, for each s where it does up to n + 2; its certificates count once."""
+    """Yield every pair that agrees on s samples, for each s where it does up to n + 2."""
     bench.need(PAIRS, MADE)
     for d in (*bench.pairs, *bench.material(MADE)):
         last = max(d.first.n, d.second.n) + 2 if d.first_difference is None else d.first_difference - 1
         for s in range(1, last + 1):
-            yield Compared(d.first, d.second, s, d.first_difference is None, d.weight, d.accepted if s == 1 else 0)
+            yield Compared(d.first, d.second, s, d.first_difference is None, d.weight, d.accepted)
 
 
 def _equivalent(bench: Workbench) -> Iterator[Compared]:

@@ -150,8 +150,8 @@ class Chosen:
         return str(self.record.system.field)
 
     @property
-    def accepted(self) -> int:
-        """This is the number of accepted certificates."""
+    def accepted(self) -> frozenset[str]:
+        """These are the accepted certificates, by their SHA-256."""
         return self.record.accepted
 
     @property

@@ -48,7 +48,7 @@ class Simulated:
     excitation: int
     order: int
     weight: int
-    accepted: int
+    accepted: frozenset[str]
 
     @property
     def size(self) -> tuple[int, ...]:
@@ -129,12 +129,11 @@ def signals(system: ResidualSystem, s: int, count: int) -> Iterator[tuple[Matrix
 
 def examined(system: ResidualSystem, x0: Matrix, v: Matrix, s: int, weight: int = 1) -> Simulated:
     """The subject of this trajectory, with its ranks certified."""
-    bare = Simulated(system, x0, v, s, 0, 0, persistency(v), weight, 0)
-    ranks = []
-    for certificate in _data_ranks(bare):
-        accept(certificate)
-        ranks.append(certificate["statement"]["rank"])
-    return replace(bare, gap=ranks[1] - ranks[0], excitation=ranks[2], accepted=len(ranks))
+    bare = Simulated(system, x0, v, s, 0, 0, persistency(v), weight, frozenset())
+    certificates = tuple(_data_ranks(bare))
+    decided = frozenset(map(accept, certificates))
+    before, after, excitation = (certificate["statement"]["rank"] for certificate in certificates)
+    return replace(bare, gap=after - before, excitation=excitation, accepted=decided)
 
 
 def _subjects(bench: Workbench) -> Iterator[Simulated]:

@@ -51,9 +51,9 @@ class Windowed:
         return str(self.evidence.system.field)
 
     @property
-    def accepted(self) -> int:
-        """This is the number of accepted certificates, which count once a system, at its first window."""
-        return self.evidence.accepted if self.window <= 1 else 0
+    def accepted(self) -> frozenset[str]:
+        """These are the accepted certificates, by their SHA-256."""
+        return self.evidence.accepted
 
     @cached_property
     def degenerate(self) -> str:

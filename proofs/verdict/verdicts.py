@@ -70,13 +70,23 @@ class Outcome:
     """This is what a check found. `evidence` says on what the verdict rests; `certificates` are the headline ones, all accepted by the
     checker.
 
-    `accepted` counts every certificate that the checker accepted on the way, headline or not.
+    `decided` has the SHA-256 of those that the checker accepted on the way; `accepted` counts the distinct ones, headline or not.
     """
 
     verdict: Verdict
     evidence: str
     certificates: tuple[Certificate, ...] = ()
-    accepted: int = 0
+    decided: frozenset[str] = frozenset()
+
+    @property
+    def all_decided(self) -> frozenset[str]:
+        """These are all certificates that the checker accepted for it, headline or not, by their SHA-256."""
+        return self.decided | {sha256(certificate) for certificate in self.certificates}
+
+    @property
+    def accepted(self) -> int:
+        """This is the number of distinct certificates that the checker accepted for it."""
+        return len(self.all_decided)
 
 
 @dataclass(frozen=True, repr=False)
@@ -221,7 +231,7 @@ class Row:
     evidence: str
     already: str | None
     certificates: tuple[Certificate, ...]
-    accepted: int
+    decided: frozenset[str] = frozenset()
     ledger: str | None = None
     theorems: tuple[str, ...] = ()
     machine_checked: bool = False
@@ -229,6 +239,16 @@ class Row:
     lacking: int | None = None
     implied: str | None = None
     attacks: tuple[Attacked, ...] = ()
+
+    @property
+    def all_decided(self) -> frozenset[str]:
+        """These are all certificates that the checker accepted for it, headline or not, by their SHA-256."""
+        return self.decided | {sha256(certificate) for certificate in self.certificates}
+
+    @property
+    def accepted(self) -> int:
+        """This is the number of distinct certificates that the checker accepted for it."""
+        return len(self.all_decided)
 
     @property
     def expected(self) -> str | None:
@@ -284,8 +304,9 @@ class Report(Shown):
     """The verdicts of a run on every claim that was asked for; `verify` returns it.
 
     `claims` is a tuple with a ClaimResult a claim, whose `readings` hold the outcomes, and `hypotheses` has a Row for each hypothesis that
-    was dropped. `corpus` says in words on which systems the run rests, `seconds` is how long it took, and `machine` is what there is to say
-    of Rocq. `certificates()` gives the list of all headline certificates. The claims are those of [G25].
+    was dropped. `corpus` says in words on which systems the run rests, `seconds` is how long it took, `machine` is what there is to say of
+    Rocq, and `believed` says which programs and files it was (None: it was not asked). `certificates()` gives the list of all headline
+    certificates. The claims are those of [G25].
 
     Raises nothing; `plot` raises ImportError where there is no matplotlib.
 
@@ -303,6 +324,7 @@ class Report(Shown):
     corpus: str
     seconds: float
     machine: str = "not asked"
+    believed: Mapping[str, str | None] | None = None
     versions: dict[str, str] = field(default_factory=lambda: versions())
 
     @property
@@ -330,6 +352,11 @@ class Report(Shown):
         rows = (row.certificates for row in self.hypotheses)
         return list({sha256(certificate): certificate for several in (*readings, *rows) for certificate in several}.values())
 
+    def decided(self) -> frozenset[str]:
+        """Every certificate that the checker accepted in this run, by its SHA-256: one on which several verdicts rest is there once."""
+        readings = (reading.outcome.all_decided for claim in self.claims for reading in claim.readings)
+        return frozenset().union(*readings, *(row.all_decided for row in self.hypotheses))
+
     def plot(self, ax: Any = None) -> Any:
         """Draws a line a claim and a square a reading into the matplotlib axes `ax`, new ones where None are given, and returns them.
 
@@ -348,6 +375,7 @@ class Report(Shown):
             "as_expected": self.as_expected,
             "corpus": self.corpus,
             "rocq": self.machine,
+            "believed": None if self.believed is None else dict(self.believed),
             "seconds": round(self.seconds, 1),
             "versions": self.versions,
             "claims": [claim.to_json() for claim in self.claims],

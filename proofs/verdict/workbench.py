@@ -6,6 +6,7 @@ refute        the smallest counterexample in a box, found by search: REFUTED, or
 witnessed     the opposite of a statement, by the counterexample to it
 counterexample, certify_records    the outcome of a search, and of a statement on pairs, alternatives or experiments
 accepted      certificates, each put before the checker once more: headline certificates are never shown unchecked
+all_accepted  the distinct certificates that several pieces of evidence rest on
 """
 
 from __future__ import annotations
@@ -193,6 +194,11 @@ def accepted(certificates: Iterable[Certificate]) -> tuple[Certificate, ...]:
     return found
 
 
+def all_accepted(found: Iterable[Evidence | Item]) -> frozenset[str]:
+    """Return the certificates that these rest on, by their SHA-256: those that several share once."""
+    return frozenset().union(*(one.accepted for one in found))
+
+
 def size(system: ResidualSystem) -> tuple[int, ...]:
     """Return the numbers n + m + p, then n, m, p: the order in which the smallest is sought."""
     return (system.n + system.m + system.p, system.n, system.m, system.p)
@@ -212,7 +218,7 @@ def certify(bench: Workbench, asks: Questions, applies: Test, holds: Test, show:
     total = sum(e.weight for e in tried)
     representative = next((e for e in tried if e.system.n), tried[0]).system
     evidence = f"no counterexample found in {total} systems: {describe(tried)}"
-    return Outcome(Verdict.CERTIFIED, evidence, accepted(show(representative)), sum(e.accepted for e in tried))
+    return Outcome(Verdict.CERTIFIED, evidence, accepted(show(representative)), all_accepted(tried))
 
 
 def refute(
@@ -249,7 +255,7 @@ def witnessed(found: Outcome) -> Outcome:
 def counterexample(words: str, box: object, certificates: Iterable[Certificate]) -> Outcome:
     """Return the outcome REFUTED, by these certificates."""
     checked = accepted(certificates)
-    return Outcome(Verdict.REFUTED, f"{words}; the smallest with {box}", checked, len(checked))
+    return Outcome(Verdict.REFUTED, f"{words}; the smallest with {box}", checked)
 
 
 def certify_records(
@@ -270,4 +276,4 @@ def certify_records(
         totals[record.origin] = totals.get(record.origin, 0) + record.weight
     listed = "; ".join(f"{count} {origin}" for origin, count in totals.items())
     evidence = f"no counterexample found in {sum(totals.values())} {unit}: {listed}"
-    return Outcome(Verdict.CERTIFIED, evidence, accepted(show(records[0])), sum(r.accepted for r in records))
+    return Outcome(Verdict.CERTIFIED, evidence, accepted(show(records[0])), all_accepted(records))

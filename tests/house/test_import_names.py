@@ -36,6 +36,12 @@ def test_the_full_name_works_and_the_plain_name_is_refused_in_one_line(root: Pat
         assert last.startswith("ImportError: ") and f"'import faultspace.{room}'" in last
 
 
+def test_rooms_leave_the_finders_of_modules_in_order(root: Path) -> None:
+    """What a room adds to them has all that Python asks of a finder: `importlib.invalidate_caches()` had ended with a TypeError."""
+    run = python(root, "import importlib, faultspace.exact, faultspace.numeric, faultspace.proofs.trust; importlib.invalidate_caches()")
+    assert run.returncode == 0, run.stderr
+
+
 def test_no_two_modules_of_numeric_share_a_name_and_none_has_that_of_a_public_function() -> None:
     modules = [one.name.split(".")[2:] for one in house() if one.name.startswith("faultspace.numeric.") and ".audit" not in one.name]
     names = Counter(name[-1] for name in modules)

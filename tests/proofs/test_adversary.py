@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import time
 from collections.abc import Iterator
@@ -20,7 +21,7 @@ from faultspace.base.errors import InvalidData
 from faultspace.exact.limits.moesp import limit
 from faultspace.exact.limits.moments import covariances
 from faultspace.proofs import verification
-from faultspace.proofs.adversary import attacking, engine, following
+from faultspace.proofs.adversary import attacking, engine, following, results
 from faultspace.proofs.adversary.attacking import Attacking, looked_at_again, of_reading, of_row
 from faultspace.proofs.adversary.catalogue import catalogue, expected_of, statement_of
 from faultspace.proofs.adversary.engine import pursue
@@ -35,6 +36,8 @@ from faultspace.proofs.trust import checker
 from faultspace.proofs.verdict.ledger import load
 from faultspace.proofs.verdict.verdicts import Outcome, ReadingResult, Row, Verdict
 from tests.thorough import THOROUGH, every
+
+FILE = Path(results.__file__).with_name(results.FILE)
 
 FALSE_REPAIR = "proposition-1.two-sided-range by a double pole"
 
@@ -113,7 +116,7 @@ def test_every_target_is_in_the_ledger_and_no_attack_is_on_what_a_theorem_says()
 
 def test_the_file_of_results_is_whole_up_to_date_and_as_expected() -> None:
     schema = json.loads(resources.files("faultspace.proofs").joinpath("schemas/adversary.schema.json").read_text("utf-8"))
-    jsonschema.Draft202012Validator(schema).validate({"format": "faultspace-adversary/1", "attacks": list(stored())})
+    jsonschema.Draft202012Validator(schema).validate(json.loads(FILE.read_text("utf-8")))
     stale = "python -m faultspace.proofs.adversary --stale --out proofs/adversary/results.json runs what is missing"
     assert [record["attack"] for record in stored()] == [one.id for one in catalogue()], stale
     again = "python -m faultspace.proofs.adversary --reading ID --out proofs/adversary/results.json runs an attack again"
@@ -121,6 +124,34 @@ def test_the_file_of_results_is_whole_up_to_date_and_as_expected() -> None:
         found = checked_again(target)
         assert [one.trouble for one in found if one.trouble] == [], f"{target}: {again}"
         assert any(one.refutes for one in found) == (expected_of(target) == "REFUTED"), target
+
+
+def test_numbers_changed_in_the_file_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the digest as it was, whatever was changed; with a digest made anew, the starts that the attack has not."""
+    quick = [one for one in stored() if one["outcome"] == results.NONE and one.get("starts") and one["seconds"] <= results.AGAIN]
+    quickest = min(quick, key=lambda one: one["seconds"])
+    target = quickest["target"]
+    (first,) = checked_again(target, [quickest])
+    assert first.words.startswith("On record: No counterexample was found") and first.words.endswith("no counterexample")
+    assert first.trouble is None and re.search(r"now: \d+ values, \d+ points decided exactly", first.words)
+
+    data = json.loads(FILE.read_text("utf-8"))
+    for changes in ({"starts": 5000000}, {"evaluations": 10**9}, {"decided": 10**9}, {"seconds": 1e6}, {"date": "2030-01-01"}):
+        forged = {**data, "attacks": [one | changes if one["attack"] == first.id else one for one in data["attacks"]]}
+        for again in (False, True):
+            if again:
+                results.write(forged["attacks"], tmp_path / results.FILE)
+            else:
+                (tmp_path / results.FILE).write_text(json.dumps(forged), "utf-8")
+            with monkeypatch.context() as patched:
+                patched.setattr(results.resources, "files", lambda package: tmp_path)
+                records = stored.__wrapped__()
+            (found,) = checked_again(target, [record for record in records if record["attack"] == first.id])
+            if not again:
+                assert found.trouble == "not found again: results.json is not the file whose SHA-256 it tells"
+            elif "starts" in changes:
+                assert found.trouble == f"not found again: the attack has {attack(first.id).starts} starts, and 5000000 were stored"
+            assert found.words.startswith("On record: "), "whatever else is forged is not told as done now"
 
 
 def record_of(name: str) -> AttackRecord:
@@ -228,7 +259,7 @@ def test_a_row_of_the_hypothesis_table_gives_way_too() -> None:
 def test_a_run_makes_the_records_that_are_stored_but_for_the_seconds() -> None:
     name = "theorem-2.finite-zeros-only by one state: det G"
     (made,) = run_attacks([attack(name)], seconds=60, seed=record_of(name)["seed"])
-    varying = {"seconds", "date", "nearest", "point"}
+    varying = {"seconds", "date", "nearest", "point", "whole"}
     assert {k: v for k, v in made.items() if k not in varying} == {k: v for k, v in record_of(name).items() if k not in varying}
     assert refuting(made)
 

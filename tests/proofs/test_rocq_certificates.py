@@ -22,6 +22,7 @@ from faultspace.proofs.rocq.listed import NotCovered
 from faultspace.proofs.rocq.numbered import numbers_of
 from faultspace.proofs.rocq.recompute import ACCEPTED, decided, proved, recomputed, theory
 from faultspace.proofs.rocq.sources import sources
+from faultspace.proofs.rocq.statements import VOCABULARY, read
 from faultspace.proofs.rocq.terms import Terms
 from faultspace.proofs.trust import checker
 from tests.end_to_end.commands import call
@@ -109,6 +110,20 @@ def test_rocq_and_the_checker_agree_on_mutations() -> None:
         assert min(of_field.count(True), of_field.count(False)) > 10, field
 
 
+def test_what_is_stated_is_read_before_any_file_of_proofs_is_imported() -> None:
+    """A file of proofs could have another meaning for a word: only what the locks hold may stand before the last statement."""
+    text = rocq_export.written([exported(certificate) for certificate in small_ones()[:40]])
+    before = text[: text.rindex("Definition said : Prop")]
+    required = re.findall(r"From faultspace Require Import ([\w ]+)\.", before)
+    assert len(required) == 1 and all(VOCABULARY.fullmatch(f"{name}.v") for name in required[0].split())
+    words = {name for said in re.findall(r"Definition said : Prop := (.*)\.\n", text) for name in re.findall(r"[A-Za-z_]\w*", said)}
+    ours = {name for file in sources() for name in re.findall(r"^(?:Definition|Fixpoint|Record) (\w+)", sources()[file], re.MULTILINE)}
+    locked = {name for found in read(sources()).words.values() for name in found}
+    own = {name for terms in map(exported, small_ones()[:40]) for name, *_ in terms.definitions}
+    bound = set(" ".join(re.findall(r"(?:forall|fun|exists) ([\w ]+)", text)).split())
+    assert words & ours <= locked | own | bound, "and the statement uses no word of another file"
+
+
 @needs_rocq
 def test_what_computes_to_false_is_no_theorem() -> None:
     terms = translated(FALSE)
@@ -149,7 +164,7 @@ def everywhere(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...
 def text_of(certificate: dict[str, Any], write: Callable[[dict[str, Any]], Terms]) -> str | None:
     """Returns what Rocq would read; None where the exporter refuses."""
     try:
-        return f"{(terms := write(certificate)).theorem()} {terms.check}"
+        return f"{(terms := write(certificate)).claimed()}{terms.proof()} {terms.check}"
     except (checker.Malformed, checker.Rejected, NotCovered):
         return None
 

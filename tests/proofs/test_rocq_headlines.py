@@ -11,8 +11,9 @@ import pytest
 from faultspace.proofs.rocq import build as rocq_build
 from faultspace.proofs.rocq import theorems as machine_checked
 from faultspace.proofs.rocq.build import NoRocq, NotProved, compile_file, compiled_theory
+from faultspace.proofs.rocq.sentences import refusals
 from faultspace.proofs.rocq.sources import THEORY, sources
-from faultspace.proofs.rocq.statements import Headline, read, refusals
+from faultspace.proofs.rocq.statements import Headline, read
 from faultspace.proofs.rocq.theorems import asked, check
 from faultspace.proofs.verdict.ledger import load
 from tests.thorough import every

@@ -120,7 +120,7 @@ def test_changed_words_are_not_as_locked() -> None:
         ("Vocabulary.v", "Import GRing.Theory.", "Import GRing.Theory Num.Theory.", "what Vocabulary.v opens with"),
         ("HeadlinesMore.v", "Local Open Scope ring_scope.", "Local Open Scope nat_scope.", "what HeadlinesMore.v opens with"),
         ("Lists.v", "Canonical number_rmorphism", "Canonical number_morphism", "may change how statements are read"),
-        ("Basics.v", "Local Open Scope", "Coercion f : a >-> b.\nLocal Open Scope", "may change how statements are read"),
+        ("Basics.v", "Local Open Scope", "Coercion f : a >-> b.\nLocal Open Scope", "Basics.v has Coercion"),
         ("Basics.v", "Local Open Scope", 'Notation "a %| b" := True.\nLocal Open Scope', "may change how statements are read"),
         ("Lag.v", "Set Implicit", "Axiom absurd : False.\nSet Implicit", "Lag.v has Axiom"),
         ("Gap.v", "Qed.", "Admitted.", "Gap.v has Admitted"),

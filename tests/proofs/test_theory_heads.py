@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
+from faultspace.proofs.rocq.sentences import sentences
 from faultspace.proofs.rocq.sources import sources
-from faultspace.proofs.rocq.statements import sentences
 
 TEXTS = sources()
 DEFINES = re.compile(r"(?:Definition|Fixpoint|Inductive|CoInductive|Variant|Record|Structure|Notation)\s+([A-Za-z_][\w']*)")

@@ -33,6 +33,7 @@ from faultspace.exact.limits.moesp import limit
 from faultspace.exact.structure.record import Structure, analyze
 from faultspace.exact.system.systems import FaultySystem, ResidualSystem
 
+from ....base.writing import write_text
 from ...method.model.compression import EPS
 from ...study.rounding.conditioning import SMALL
 from ..vectors.exact_comparison import roots
@@ -240,5 +241,5 @@ def main(arguments: Sequence[str] | None = None) -> int:
     texts = {name: written(document) for name, document in {**documents(), **trouble_documents()}.items()}
     out.mkdir(parents=True, exist_ok=True)
     for name, text in texts.items():
-        (out / name).write_text(text, "utf-8")
+        write_text(out / name, text)
     return 0

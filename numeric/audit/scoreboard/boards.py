@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from ....base.progress import Progress, evenly, working
+from ....base.writing import write_text
 from ..peers import PEERS
 from ..peers import peer as peer_named
 from ..records import CheckResult, Status, grouped
@@ -82,6 +83,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with working("the audit of our own code") as tell:
             for one in audits(names, given.timeout, evenly(tell), ours=not given.others):
                 found = merged(Board((one,)), found)
-                file.write_text(json.dumps(found.to_json(), indent=1) + "\n", "utf-8")  # what is known is kept, whatever comes then
+                write_text(file, json.dumps(found.to_json(), indent=1) + "\n")  # what is known is kept, whatever comes then
     write_pages(found, given.out)
     return 0

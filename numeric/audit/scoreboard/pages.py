@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from pathlib import Path
 
+from ....base.writing import write_text
 from ..records import Demand
 from .records import Audited, Board, Tally
 from .reproducers import reproducers, write
@@ -123,7 +124,7 @@ def write_pages(board: Board, folder: Path) -> None:
     if readme.exists() and BEGIN in (text := readme.read_text("utf-8")):
         before, _, rest = text.partition(BEGIN)
         _, _, after = rest.partition(END)
-        readme.write_text(f"{before}{BEGIN}\n{table(board)}\n{END}{after}", "utf-8")
+        write_text(readme, f"{before}{BEGIN}\n{table(board)}\n{END}{after}")
     scripts = list(reproducers(found(board)))
     write(folder, scripts)
-    (folder / "FINDINGS.md").write_text(findings(board, {(one.peer, one.check): one.path for one in scripts}), "utf-8")
+    write_text(folder / "FINDINGS.md", findings(board, {(one.peer, one.check): one.path for one in scripts}))

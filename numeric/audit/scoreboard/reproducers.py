@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ....base.errors import InvalidData
+from ....base.writing import write_text
 from ..adapter import FUNCTIONS
 from ..peers import PEERS
 from ..upstream.reproducing import script
@@ -55,4 +56,4 @@ def write(folder: Path, scripts: Sequence[Reproducer]) -> None:
             file.unlink()
     for one in scripts:
         (folder / one.path).parent.mkdir(parents=True, exist_ok=True)
-        (folder / one.path).write_text(one.text, "utf-8")
+        write_text(folder / one.path, one.text)
