@@ -58,9 +58,8 @@ def verify(
 
     >>> import faultspace as fs
     >>> report = fs.verify(["example-v"], jobs=1)
-    >>> print(report.summary())
+    >>> print(report.title)
     1 claim decided: every verdict is the expected one
-        example-v                           AMENDED
     >>> "window ranks [2, 4, 5, 6, 7, 8] for s = 1..6, left minimal indices [2]" in report.claims[0].readings[0].outcome.evidence
     True
     """

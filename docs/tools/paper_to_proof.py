@@ -20,14 +20,14 @@ from faultspace.proofs.hypotheses import ablations
 from faultspace.proofs.rocq.sources import beyond, paths, sources
 from faultspace.proofs.rocq.statements import Statements, read
 from faultspace.proofs.verdict.ablation import Ablation
-from faultspace.proofs.verdict.ledger import Claim, Reading, expected_without, load
+from faultspace.proofs.verdict.ledger import OURS, Claim, Reading, expected_without, load
 from faultspace.proofs.verdict.verdicts import Verdict, of_readings
 from faultspace.proofs.verdict.workbench import Workbench
 
 from .instances import meeting
 from .premises import Instance, instances, premises
 
-PAPER, OURS = "[G25]", "ours"
+PAPER = "[G25]"
 THEORY, BEYOND = "../../proofs/theory", "../../proofs/theory_beyond"
 NONE = "no instance is computed"
 BY_THEOREMS = "what each of its theorems supposes can be met together"
@@ -35,8 +35,8 @@ HEAD = """# From the paper to the proofs
 
 This page is made of the [ledger](../../proofs/verdict/ledger.toml), the sources of the [theory](../../proofs/theory/README.md) and the
 texts of the language of claims. Each claim of the ledger that is taken from [G25] has a section, in the order of the ledger: the claim as
-printed, each way to read it with the [verdict](../../docs/claims.md) that the ledger expects where there is Rocq, and its theorems. Of a
-refuted reading these are its counterexample. A matrix of the theorems is the transpose of the paper's
+the review states it, each way to read it with the [verdict](../../docs/claims.md) that the ledger expects where there is Rocq, and its
+theorems. Of a refuted reading these are its counterexample. A matrix of the theorems is the transpose of the paper's
 ([row vectors](../../proofs/theory/README.md#row-vectors)). [The statements in full](statements.md) have every word that they use.
 
 - *Met by* tells a case that meets a reading, or what is proved of the premises of its theorems. Where the
@@ -169,12 +169,12 @@ def _section(claim: Claim, found: Sequence[ReadingRow]) -> Iterator[str]:
 
 
 def _differs(claim: Claim) -> str:
-    """Return which readings of the paper's words fail or hold, and which are ours."""
-    printed = [one for one in claim.readings if not one.repair]
+    """Return which readings of the words fail or hold, and which are ours."""
+    stated = [one for one in claim.readings if not one.repair]
     kinds = {
-        "Refuted as the paper can be read": [one for one in printed if one.expected == "REFUTED"],
-        "Standing as the paper can be read": [one for one in printed if one.expected != "REFUTED"],
-        "Ours, and not the paper's": [one for one in claim.readings if one.repair],
+        "Refuted readings of these words": [one for one in stated if one.expected == "REFUTED"],
+        "Standing readings of these words": [one for one in stated if one.expected != "REFUTED"],
+        "Ours": [one for one in claim.readings if one.repair],
     }
     return " ".join(f"{what}: {', '.join(one.id for one in found)}." for what, found in kinds.items() if found)
 

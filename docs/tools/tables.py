@@ -71,8 +71,8 @@ def picture() -> str:
     matplotlib.rcParams |= {"svg.hashsalt": "faultspace", "svg.fonttype": "none", "font.family": "sans-serif"}
     lines = []
     for claim in load():
-        printed, ours = (tuple(one.proved for one in claim.readings if one.repair == repair) for repair in (False, True))
-        lines.append(Line(claim.id, str(verdict(claim)), printed, ours))
+        stated, ours = (tuple(one.proved for one in claim.readings if one.repair == repair) for repair in (False, True))
+        lines.append(Line(claim.id, str(verdict(claim)), stated, ours))
     stream = io.StringIO()
     draw(lines).figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
     return stream.getvalue()

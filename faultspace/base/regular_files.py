@@ -1,13 +1,15 @@
 """This opens files that people name; what may never end, or would wait for somebody who writes, is refused at once.
 
-open_regular   a file as a stream of bytes; pipes, devices and folders are no files
-open_own       the same for a file that we wrote: no link is
+open_regular     a file as a stream of bytes; pipes, devices and folders are no files
+open_own         the same for a file that we wrote: no link is
+standard_input   the bytes of standard input
 """
 
 from __future__ import annotations
 
 import os
 import stat
+import sys
 from typing import BinaryIO
 
 from .errors import InvalidInput
@@ -45,3 +47,10 @@ def _opened(path: str | os.PathLike[str], expected: str, flags: int) -> BinaryIO
         what = "is a directory" if stat.S_ISDIR(kind) else "is a pipe or a device"
         raise InvalidInput(f"{what}, expected {expected}")
     return os.fdopen(descriptor, "rb")
+
+
+def standard_input() -> BinaryIO:
+    """Return standard input as a stream of bytes. Raises InvalidInput where whoever started us has closed it."""
+    if sys.stdin is None:
+        raise InvalidInput("standard input: is closed, expected one to read from")
+    return sys.stdin.buffer

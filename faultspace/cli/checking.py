@@ -6,7 +6,6 @@ run          the command's body
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 
 from rich.console import Console
@@ -16,6 +15,7 @@ from .. import packaged_examples
 from ..base.errors import InvalidInput, in_file, quote_path
 from ..base.messages import say
 from ..base.progress import working
+from ..base.regular_files import standard_input
 from ..proofs.checking import CheckedFile, ask_rocq, check_file
 from ..proofs.rocq.build import believed, told
 from ..proofs.trust import checker
@@ -87,7 +87,7 @@ def _system(name: str) -> checker.System:
             if name.startswith(packaged_examples.PREFIX):
                 data = packaged_examples.content(name)
             elif name == "-":
-                data = sys.stdin.buffer.read(checker.MAX_BYTES + 1)
+                data = standard_input().read(checker.MAX_BYTES + 1)
             else:
                 data = checker.content(name)
         except checker.Malformed as error:

@@ -57,7 +57,7 @@ def claims_table(claims: Sequence[ClaimResult]) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
     table.add_column("claim", no_wrap=True)
     table.add_column("verdict", no_wrap=True)
-    table.add_column("readings as printed", overflow="fold")
+    table.add_column("readings as stated", overflow="fold")
     table.add_column("readings of ours", overflow="fold")
     for claim in claims:
         name = Text(claim.claim.id) if claim.as_expected else Text(f"! {claim.claim.id}", style="bold red")
@@ -67,7 +67,7 @@ def claims_table(claims: Sequence[ClaimResult]) -> Table:
 
 
 def resting_on(claim: ClaimResult, *, ours: bool) -> str:
-    """Return how many of the readings as printed, or of ours, have which verdict: "1 proved, 2 refuted"."""
+    """Return how many of the readings of the words as stated, or of ours, have which verdict: "1 proved, 2 refuted"."""
     verdicts = [result.outcome.verdict for result in claim.readings if result.reading.repair == ours]
     counts = Counter(verdicts)
     parts = ", ".join(f"{counts[verdict]} {verdict.lower()}" for verdict in Verdict if counts[verdict])

@@ -120,7 +120,7 @@ def _refuted() -> Iterator[Attack]:
     for target, known in (
         ("assumption-4.n-minus-1-known", True),
         ("assumption-4.n-minus-1-unknown", False),
-        ("proposition-3.as-printed", True),
+        ("proposition-3.n-minus-1", True),
         ("settle-2.n-minus-1", True),
     ):
         yield from on_strata(target, "one fault", tall, [at_zero], unlike(lambda d, known=known: _early_gap(d, known), delays))  # type: ignore[misc]

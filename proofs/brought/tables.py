@@ -2,6 +2,7 @@
 
     Row          the values, the first case of the box that has them, and how many have them, in the box and among the known cases
     Table        the rows, the first cases in the order of the box, and how much was gone through
+    add_batch    cases outside the box, added to the rows
     tabulate     the table of expressions on a box, on known cases, direct sums and drawn cases, under hypotheses
 
 The direct sums are those of two cases of the table: most numbers of a direct sum are sums or maxima of those of its parts, so that they
@@ -81,6 +82,8 @@ class Table:
     sums_met: int = 0
     drawn: int = 0
     drawn_met: int = 0
+    sparse: int = 0
+    sparse_met: int = 0
 
     @property
     def met(self) -> int:
@@ -223,7 +226,7 @@ def _add_sums(table: Table, rows: dict[Values, Row], hypotheses: Sequence[Node],
     for number, (_, group) in enumerate(groupby(couples, key=lambda one: one[0])):
         listed = [couple for _, couple in group]
         table.sums += len(listed)
-        table.sums_met += _add_batch(direct_sums(listed, table.box), (OUTSIDE + 1, number), rows, hypotheses, columns)
+        table.sums_met += add_batch(direct_sums(listed, table.box), (OUTSIDE + 1, number), rows, hypotheses, columns)
 
 
 def _add_drawn(table: Table, rows: dict[Values, Row], hypotheses: Sequence[Node], columns: Sequence[Node]) -> None:
@@ -233,10 +236,10 @@ def _add_drawn(table: Table, rows: dict[Values, Row], hypotheses: Sequence[Node]
             break
         batch = drawn(table.box, rng)
         table.drawn += len(batch)
-        table.drawn_met += _add_batch(batch, (OUTSIDE + 2, number), rows, hypotheses, columns)
+        table.drawn_met += add_batch(batch, (OUTSIDE + 2, number), rows, hypotheses, columns)
 
 
-def _add_batch(batch: Many, at: tuple[int, int], rows: dict[Values, Row], hypotheses: Sequence[Node], columns: Sequence[Node]) -> int:
+def add_batch(batch: Many, at: tuple[int, int], rows: dict[Values, Row], hypotheses: Sequence[Node], columns: Sequence[Node]) -> int:
     """Add cases outside the box, and return how many of them meet the hypotheses."""
     part, each = _Part(), Stretch(batch, np.arange(len(batch)), np.ones(len(batch), dtype=np.int64))
     try:

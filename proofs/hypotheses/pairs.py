@@ -113,7 +113,7 @@ def theorem_1() -> Ablation[Compared]:
 
 def theorem_3_i() -> Ablation[Compared]:
     """Drop hypotheses of: the columns of an equivalent system with as many states lie in Z after some change of its state."""
-    words = "the columns [T F'; G'] of an equivalent system lie in Z, for some change T of its state"
+    words = "the columns [T F'; G'] of an equivalent system with as many states lie in Z, for some change T of its state"
     return _of_equivalent("columns-in-Z", words, _columns_in_space, Proof(("columns_after_change_of_state",)))
 
 

@@ -10,7 +10,7 @@ QUANTITIES = (
     Quantity(
         "normal_rank",
         Kind.INTEGER,
-        "the rank of C (qI - A)^-1 F + G for almost every q",
+        "the rank of C (qI - A)^-1 F + G over the rational functions of q",
         lambda x: x.kernel.normal_rank,
         lambda r: r.normal_rank,
         certified.windows,

@@ -58,7 +58,7 @@ _MEANINGS = {
         "no counterexample was found among the systems tried, or what is said to exist is there, by certificates that the checker accepted"
     ),
     Verdict.REFUTED: "it fails, by a counterexample with certificates that the checker accepted",
-    Verdict.AMENDED: "the claim is refuted as printed, or a part of it is, and a repair of it is not",
+    Verdict.AMENDED: "every reading of the claim as stated is refuted, or of a part of it, and a repair of ours is not",
     Verdict.ERROR: "the check did not finish",
 }
 
@@ -144,7 +144,7 @@ class ReadingResult(Shown):
 
 @dataclass(frozen=True, repr=False)
 class ClaimResult(Shown):
-    """This is a claim with its readings checked. AMENDED: every reading as printed of the claim, or of one of its parts, is refuted, and a
+    """This is a claim with its readings checked. AMENDED: every reading of its words, or of those of one of its parts, is refuted, and a
     repair is not."""
 
     claim: Claim
@@ -178,16 +178,18 @@ class ClaimResult(Shown):
         return f"{self.claim.id}: {self.verdict}" + ("" if self.verdict == self.expected else f", expected {self.expected}")
 
     def sheet(self) -> list[tuple[str, str]]:
-        """Return the statement as printed, and the verdict on each reading, as (name, value) pairs."""
+        """Return the statement, whose words these are, and the verdict on each reading, as (name, value) pairs."""
         readings = [(one.reading.id, f"{one.outcome.verdict}. {one.reading.statement}") for one in self.readings]
-        return [("as printed", self.claim.statement), ("readings", ""), *readings]
+        return [(self.claim.whose, self.claim.statement), ("readings", ""), *readings]
 
     def to_json(self) -> dict[str, Any]:
         """Return the object in `verify --json`."""
         return {
             "id": self.claim.id,
             "reference": self.claim.reference,
-            "as_printed": self.claim.statement,
+            "whose": self.claim.whose,
+            "as_stated": self.claim.statement,
+            "as_printed": self.claim.statement,  # what earlier runs called it
             "uses": list(self.claim.uses),
             "verdict": str(self.verdict),
             "expected": self.expected,
@@ -364,8 +366,8 @@ class Report(Shown):
         """
         lines = []
         for one in self.claims:
-            printed, ours = (tuple(str(r.outcome.verdict) for r in one.readings if r.reading.repair == repair) for repair in (False, True))
-            lines.append(Line(one.claim.id, str(one.verdict), printed, ours))
+            stated, ours = (tuple(str(r.outcome.verdict) for r in one.readings if r.reading.repair == repair) for repair in (False, True))
+            lines.append(Line(one.claim.id, str(one.verdict), stated, ours))
         return draw(lines, ax)
 
     def to_json(self) -> dict[str, Any]:

@@ -11,7 +11,7 @@ import pytest
 
 import faultspace as fs
 from faultspace.cli.command_line import main
-from faultspace.proofs.brought import tables
+from faultspace.proofs.brought import sparse_systems, tables
 from faultspace.proofs.brought.known_cases import known_cases
 from faultspace.proofs.language.vocabularies import SYSTEM
 
@@ -34,6 +34,7 @@ def few_outside(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is asked here has enough in fewer systems outside the box, which take most of the time."""
     monkeypatch.setattr(tables, "MOST_SUMS", 300)
     monkeypatch.setattr(tables, "MOST_MET", 100)
+    monkeypatch.setattr(sparse_systems, "BATCHES", 1)
 
 
 @pytest.fixture

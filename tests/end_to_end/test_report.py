@@ -208,7 +208,7 @@ def test_nothing_of_a_record_becomes_markup(records: Records) -> None:
     attack = "<script>alert(1)</script>"
 
     def change(verdicts: dict[str, Any]) -> None:
-        verdicts["claims"][0]["as_printed"] = verdicts["claims"][0]["readings"][0]["evidence"] = attack
+        verdicts["claims"][0]["as_stated"] = verdicts["claims"][0]["readings"][0]["evidence"] = attack
         verdicts["claims"][0]["reference"] = f"[G25] {attack}"
         verdicts["hypotheses"][0]["evidence"] = verdicts["rocq"] = attack
 

@@ -178,7 +178,7 @@ def test_a_check_that_several_readings_share_is_run_once(monkeypatch: pytest.Mon
     monkeypatch.setattr(verification, "ablations", tuple)
     report = verify(["proposition-3", "settle-2"], jobs=1)
     readings = [reading for one in report.claims for reading in one.readings]
-    assert len(calls) == len(names) == len(readings) - 1
+    assert len(calls) == len(names) < len(readings)
     assert all(reading.outcome.evidence.endswith("shared") for reading in readings)
 
 
