@@ -5,7 +5,6 @@
     made          the locks that a set of sources has
     kept          those of theory/locks.json, which were made when somebody last read the statements
     held          the locks of the sources; raises NotProved where they are not those kept, and says which word changed
-    page          theory/STATEMENTS.md: the readings of the ledger, the theorems and their locks side by side
 
 A lock is computed from the text of our sources, without comments and line breaks, so it is the same for each version of Rocq. It is the
 SHA-256 of the lines: what the file opens with, every sentence of every vocabulary that it imports, in order, what may change the reading
@@ -14,7 +13,7 @@ it, too: a name that nobody uses can still stand for one of MathComp's. After a 
 
     python -m faultspace.proofs.rocq.locks
 
-writes both files anew and says what is different.
+writes the file anew and says what is different.
 """
 
 from __future__ import annotations
@@ -28,13 +27,12 @@ from pathlib import Path
 from typing import Any
 
 from ...base.writing import write_text
-from ..verdict.ledger import Claim, load
 from .build import NotProved
 from .sentences import refusals
 from .sources import THEORY, sources
 from .statements import Headline, Statements, read
 
-LOCKS, STATEMENTS = "locks.json", "STATEMENTS.md"
+LOCKS = "locks.json"
 COMMAND = "python -m faultspace.proofs.rocq.locks"
 MOST_LISTED = 4
 
@@ -181,56 +179,6 @@ def _around(text: str, other: str, width: int = 60) -> str:
     return f"'{'...' if start else ''}{text[start : first + width]}{'...' if first + width < len(text) else ''}'"
 
 
-def page(locks: Locks, claims: list[Claim]) -> str:
-    """Returns the table of readings, theorems and locks, and below it the words, in Markdown."""
-    lines = [
-        "# What is claimed, what is proved, and the locks of the statements",
-        "",
-        f"`{COMMAND}` writes this page from `ledger.toml` and the sources; a test says that it is current. To the left",
-        "stands what the ledger claims, in the middle the theorem that Rocq has checked (of a refuted reading, its counterexample), to the",
-        "right its lock: the SHA-256 of the statement and of all that the vocabularies it imports say, whose words stand below and in",
-        "`locks.json`.",
-        "`faultspace verify` compares them with the sources.",
-        "",
-        "| reading | in words | theorem | SHA-256 |",
-        "|---|---|---|---|",
-    ]
-    named = set[str]()
-    for claim in claims:
-        for reading in claim.readings:
-            met = f" If: {'; '.join(reading.hypotheses)}." if reading.hypotheses else ""
-            first = f"{claim.id}: {reading.id}", f"{_cell(reading.statement + met)} ({reading.proved})"
-            for name in reading.theorems:
-                named.add(name)
-                if name in locks.theorems:
-                    lines.append(_row(*first, locks.theorems[name]))
-                    first = "", "and"
-    for name in sorted({*locks.theorems} - named):
-        lines.append(_row("", "what others rest on, or part of a reading", locks.theorems[name]))
-    lines += ["", "## The words", "", "Each as its vocabulary defines it, with the variables of its section.", ""]
-    lines += ["| word | definition |", "|---|---|"]
-    lines += [f"| `{key}` | {_code(text)} |" for key, text in locks.words.items()]
-    lines += ["", "## What else the locks hold", ""]
-    lines += [f"- `{file}` opens with {_code(text)}" for file, text in locks.openings.items()]
-    lines += [f"- {_code(one)}" for one in locks.far]
-    return "\n".join(lines) + "\n"
-
-
-def _row(reading: str, words: str, lock: Lock) -> str:
-    return f"| {reading} | {words} | {_code(lock.statement)} | `{lock.sha256}` |"
-
-
-def _code(text: str) -> str:
-    """Writes a text as code in a cell of a table, where a bar would end it."""
-    mark = "``" if "`" in text else "`"
-    pad = " " if "`" in text else ""
-    return mark + pad + text.replace("|", "\\|") + pad + mark
-
-
-def _cell(text: str) -> str:
-    return " ".join(text.split()).replace("|", "\\|")
-
-
 def written(locks: Locks) -> str:
     """Returns the text of theory/locks.json."""
     return json.dumps(locks.to_json(), indent=1, ensure_ascii=False) + "\n"
@@ -247,9 +195,7 @@ def main() -> int:
         found = list(differences(kept(), now))
     except NotProved as error:
         found = [str(error)]
-    place = Path(str(THEORY))
-    write_text(place / LOCKS, written(now))
-    write_text(place / STATEMENTS, page(now, list(load())))
+    write_text(Path(str(THEORY)) / LOCKS, written(now))
     for one in found or ["nothing is different"]:
         print(one)
     return 0

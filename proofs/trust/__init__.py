@@ -26,6 +26,6 @@ class _Checker(MetaPathFinder):
         return found
 
 
-sys.meta_path.insert(0, _Checker)
+sys.meta_path.insert(0, _Checker())
 
 from . import checker_limits as checker_limits  # noqa: E402  # with it all files, each of which adds its kinds to those of checker.py

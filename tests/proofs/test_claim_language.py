@@ -294,5 +294,5 @@ def test_a_key_of_many_parts_is_refused_at_once() -> None:
             read_claims(text)
     assert process_time() - begun < 2.0
     text = "a.b." * 30
-    (claim,) = read_claims(f"# {text}\n[claim.one]\nstatement = '{text}'\nsource = \"\"\"\n{text}\"\"\"\nconclusion = 'lag <= n'\n")
+    (claim,) = read_claims(f'# {text}\n[claim.one]\nstatement = \'{text}\'\nsource = """\n{text}"""\nconclusion = \'lag <= n\'\n')
     assert claim.statement == text
