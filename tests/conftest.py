@@ -6,7 +6,8 @@ explore     fresh examples and no clock, for looking further: `pytest --hypothes
 Where tests run in several processes, each begins with a stretch of them in the order of the files, so that what the tests of a file share
 is made in one process, and takes half of what another has left when it has done its own. Tests marked `long` come first, so that no
 process is left with one at the end. Where tests that start other programs are among them, the Rocq theory is compiled before they start
-(once, then it is in the user's cache), so that no test waits for another's compilation. The linear algebra library gets one thread a process: on small matrices threads mostly wait for each other.
+(once, then it is in the user's cache), so that no test waits for another's compilation. The linear algebra library gets one thread a
+process: on small matrices threads mostly wait for each other.
 A test marked `slow` has an hour where it names no other time, for what takes minutes takes many more on a busy machine. Bytecode is kept,
 in the folders `__pycache__` that git ignores, even where PYTHONDONTWRITEBYTECODE asks for none: without it each process of tests compiles
 all tests again, and each command that a test starts all modules of ours.
