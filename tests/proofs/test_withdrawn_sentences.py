@@ -65,6 +65,18 @@ SYSTEMS: list[tuple[str, str, dict[str, Any], dict[str, Any]]] = [
         {"A": [[0, 1], [0, 0]], "F": [[0], [1]], "C": [[1, 0], [0, 0]], "G": [[0], [1]]},
         {"window_ranks": [2, 4, 5, 6, 7], "lag": 2},
     ),
+    (
+        "If there are no zeros and one fault, F and G are known",  # true of left-invertible systems; here F = 0 explains as much
+        CONCEPTS,
+        {"A": [[0, 1], [0, 0]], "F": [[0], [1]], "C": [[0, 0]], "G": [[0]]},
+        {"zeta": 0, "fault_space_dimension": 2, "left_invertible": False},
+    ),
+    (
+        "that grow or decay like the powers of q",  # a zero at 1: they stay
+        GLOSSARY,
+        {"A": [[2]], "F": [[1]], "C": [[1]], "G": [[1]]},
+        {"invariant_zero_polynomial": ["-1", "1"]},
+    ),
 ]
 
 
@@ -159,6 +171,22 @@ def test_words_that_say_more_than_is_known_are_gone(words: str) -> None:
     shown = [ROOT / README, *(page for page in pages if page.name != "history.md")]
     assert len(shown) > 100
     assert [page.name for page in shown if words in page.read_text("utf-8").lower()] == []
+
+
+def test_a_counterexample_need_not_be_of_the_box_nor_a_certificate_of_one_system() -> None:
+    (answer,) = fs.claim("lag <= 1", box={"n": [1, 1], "m": [1, 1], "p": [1, 1]}).answers
+    assert answer.tried.exhausted and answer.counterexample.system.n == 2
+    assert "the smallest one of a stated box of systems is shown" not in text(GLOSSARY)
+    about = [json.loads(file.read_text("utf-8"))["statement"] for file in (ROOT / "proofs/certificates").glob("behaviour-equality-*.json")]
+    assert about and all({"first", "second"} <= set(one) for one in about)
+    for file in (GLOSSARY, "docs/decisions.md", "docs/tutorials/read-a-certificate.md"):
+        assert "statement about one system" not in text(file) and "Certificates speak of one system" not in text(file)
+
+
+def test_what_has_no_example_is_not_said_to_have_one() -> None:
+    without = {name for name in dir(fs) if ">>>" not in (getattr(fs, name).__doc__ or "")}
+    assert without == {"__version__", "exact", "numeric", "proofs"}, "README says it of functions and classes alone"
+    assert "every one has a docstring with an example" not in text(README)
 
 
 def test_a_claim_that_is_proved_is_not_refuted_either(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
