@@ -249,7 +249,7 @@ def _dies(target: str, records: object) -> None:
 
 def test_a_row_of_the_hypothesis_table_gives_way_too() -> None:
     record = record_of("without consistency: u white by a double pole")
-    row = Row("consistency", "proposition-1", "right", ("u white",), Verdict.CERTIFIED, "on experiments", None, (), 0)
+    row = Row("consistency", "proposition-1", "right", ("u white",), Verdict.CERTIFIED, "on experiments", None, (), frozenset())
     assert of_row(row, Attacking((record,))).verdict == Verdict.REFUTED
     assert of_row(replace(row, dropped=("u white", "past >= n")), Attacking((record,))).verdict == Verdict.CERTIFIED
     assert of_row(row, Attacking(())).verdict == Verdict.ERROR, "nothing attacked it, and no theorem says it"
