@@ -144,7 +144,7 @@ def test_numbers_changed_in_the_file_are_refused(tmp_path: Path, monkeypatch: py
             else:
                 (tmp_path / results.FILE).write_text(json.dumps(forged), "utf-8")
             with monkeypatch.context() as patched:
-                patched.setattr(results.resources, "files", lambda package: tmp_path)
+                patched.setattr(resources, "files", lambda package: tmp_path)
                 records = stored.__wrapped__()
             (found,) = checked_again(target, [record for record in records if record["attack"] == first.id])
             if not again:
