@@ -176,7 +176,7 @@ SCRIPT = """
 import contextlib, sys
 from pathlib import Path
 from faultspace.cli import command_line
-from faultspace.numeric import counting
+from faultspace.numeric.plant.steps import counting
 from faultspace.numeric.data import records
 from faultspace.numeric.plant.monitor import monitoring
 from faultspace.numeric.method.signal import reconstruction
