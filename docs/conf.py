@@ -4,6 +4,7 @@ The source folder is the root of the tree, so that README, CHANGELOG and the pag
 and their links lead to each other in the site as well. A link to a file that is no page gives the file itself; one to a folder, which has
 no page, is text. Tutorials are notebooks in Markdown, which are run when the site is built.
 
+build/pages     pages that are not in the tree are made anew, before any page is read
 opened          index.html at the root of the site, which leads to the first page
 inlined         drawings become part of their page, so that they have the colours of the theme, light or dark
 whole           a long statement is one element
@@ -26,6 +27,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
 import faultspace  # noqa: E402  the tree that the pages belong to, not one that is installed
+from docs.tools.pages import write  # noqa: E402
 
 project = "faultspace"
 author = "The faultspace authors"
@@ -37,9 +39,9 @@ root_doc = "docs/index"
 # Pages, each named: the tree has links from room to room, by which a pattern would find files twice.
 include_patterns = [
     *("docs/**.md", "README.md", "CHANGELOG.md", "CONTRIBUTING.md", "BIBLIOGRAPHY.md", "benchmarks/README.md"),
-    *("proofs/trust/FORMAT.md", "proofs/trust/READING.md", "proofs/theory/README.md", "proofs/theory/STATEMENTS.md"),
+    *("proofs/trust/FORMAT.md", "proofs/trust/READING.md", "proofs/theory/README.md", "build/pages/*.md"),
     *("proofs/counterexamples/README.md", "numeric/audit/README.md", "numeric/audit/FINDINGS.md", "numeric/audit/RULES.md"),
-    *("numeric/audit/PROTOCOL.md", "numeric/audit/MUTANTS.md", "numeric/audit/peers/by_hand.md"),
+    *("numeric/audit/PROTOCOL.md", "numeric/audit/peers/by_hand.md"),
     "numeric/audit/upstream/readers/README.md",
 ]
 html_theme = "furo"
@@ -134,6 +136,7 @@ def as_written(app: Any, what: str, name: str, found: Any, options: Any, lines: 
 
 def setup(app: Any) -> None:
     """Connect the functions above with the events of Sphinx that they answer."""
+    app.connect("config-inited", lambda app, config: write(ROOT / "build" / "pages"))
     app.connect("build-finished", opened)
     app.connect("build-finished", reachable)
     app.connect("doctree-resolved", inlined)

@@ -1,163 +1,17 @@
-"""What docs/ has from the ledger: the table of the claims with their readings, that of the hypotheses, that of the attacks on them, and the
-picture of the README; the way from the paper to the proofs; and the table of the quantities that claims of your own can speak of.
+"""Make what docs/ has from the ledger anew, or the pages that are not in the tree.
 
-    python docs/make.py     writes them anew
-    TABLES                  the page -> the function that makes the rows of its table
-    filled                  the page with these rows between its two marks
-    picture                 claims.svg: one square a reading, its verdict told by a letter and a colour
-
-A test compares what these functions give with what is in the folder.
+python docs/make.py             the tables of the pages and the picture of the README, which tests compare with the ledger
+python docs/make.py FOLDER      the pages of tools/pages.py, into the folder
 """
 
-from __future__ import annotations
-
-import io
-from collections.abc import Callable, Mapping
+import sys
 from pathlib import Path
 
-from faultspace.proofs.adversary.results import SWEPT, AttackRecord, stored
-from faultspace.proofs.evidence.attacks import Aim
-from faultspace.proofs.hypotheses import ablations
-from faultspace.proofs.paper_page import lines as paper_to_proof
-from faultspace.proofs.quantities.choices import OF_A_CHOICE
-from faultspace.proofs.quantities.pairs import OF_ONE_A_AND_C
-from faultspace.proofs.quantities.records import OF_A_RECORD
-from faultspace.proofs.quantities.registry import Kind, Quantity, quantities
-from faultspace.proofs.verdict.ledger import Claim, expected_without, load
-from faultspace.proofs.verdict.picture import Line, draw
-from faultspace.proofs.verdict.verdicts import Verdict, of_readings
-
-HERE = Path(__file__).parent
-BEGIN, END = "<!-- docs/make.py makes what stands here -->", "<!-- as far as here -->"
-
-
-def claims_table() -> list[str]:
-    """The table of claims.md has a row for each reading."""
-    rows = ["| claim | verdict | read as | verdict on the reading |", "|---|---|---|---|"]
-    for claim in load():
-        for i, reading in enumerate(claim.readings):
-            first = f"| **{claim.id}** | {verdict(claim)} " if i == 0 else "| | "
-            mark = "ours: " if reading.repair else ""
-            met = f" *If: {'; '.join(reading.hypotheses)}.*" if reading.hypotheses else ""
-            rows.append(f"{first}| {mark}{reading.statement}{met} | {reading.proved} |")
-    return rows
-
-
-def hypotheses_table() -> list[str]:
-    """Return the table of hypotheses.md, a row an ablation: what the ledger expects, PROVED where it names theorems that say so."""
-    heads = "claim", "conclusion", "needed", "not needed: PROVED", "no counterexample found", "follows from the others"
-    rows = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
-    expected = expected_without()
-    for ablation in ablations():
-        cells: dict[str, list[str]] = {"REFUTED": [], "PROVED": [], "CERTIFIED": [], "IMPLIED": []}
-        for name, entry in expected[ablation.name].items():
-            proved = entry == "CERTIFIED" and ablation.theorems_without((name,))
-            cells["PROVED" if proved else entry].append(name)
-        rows.append(f"| {ablation.claim} | {ablation.conclusion} | {' | '.join('; '.join(names) for names in cells.values())} |")
-    return rows
-
-
-def verdict(claim: Claim) -> Verdict:
-    """Return the verdict that the ledger expects of a claim where there is Rocq."""
-    return of_readings([(one, Verdict(one.proved)) for one in claim.readings], in_parts=claim.in_parts)
-
-
-def picture() -> str:
-    """An SVG of the claims with the verdicts that the ledger expects where there is Rocq."""
-    import matplotlib
-
-    matplotlib.use("svg")
-    matplotlib.rcParams |= {"svg.hashsalt": "faultspace", "svg.fonttype": "none", "font.family": "sans-serif"}
-    lines = []
-    for claim in load():
-        printed, ours = (tuple(one.proved for one in claim.readings if one.repair == repair) for repair in (False, True))
-        lines.append(Line(claim.id, str(verdict(claim)), printed, ours))
-    stream = io.StringIO()
-    draw(lines).figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
-    return stream.getvalue()
-
-
-def attacks_table() -> list[str]:
-    """Return the table of adversary.md, a row an attack, from the stored results."""
-    rows = ["| statement | attacked by | outcome | tried | how near |", "|---|---|---|---|---|"]
-    before = None
-    for record in stored():
-        target, name = record["target"], record["attack"].removeprefix(f"{record['target']} by ")
-        rows.append(
-            f"| {f'**{target}**' if target != before else ''} | {name} | {record['outcome']} | {tried(record)} | {nearest(record)} |"
-        )
-        before = target
-    return rows
-
-
-def tried(record: AttackRecord) -> str:
-    """The words say how much an attack tried, and when."""
-    spent = f"{record['seconds']:.0f} s, {record['date']}"
-    if record["aim"] == SWEPT:
-        extent = "all" if record["complete"] else "part of the box:"
-        return f"{extent} {record['subjects']} in {record['cases']} cases, {spent}"
-    return f"{record['starts']} starts, {record['evaluations']} values, {record['decided']} points, {spent}"
-
-
-def nearest(record: AttackRecord) -> str:
-    """Return the least value, or the largest where any value but zero refutes; nothing where the attack went to the zero set itself."""
-    if record["outcome"] != "none found" or record["aim"] == SWEPT:
-        return ""
-    if record["aim"] == Aim.STRATUM:
-        return f"decided where {record['measured'].partition(',')[0]} vanishes"
-    return f"{record['nearest']:.1e}: {record['measured']}"
-
-
-def quantities_table() -> list[str]:
-    """Return the tables of your-claims.md, a row a quantity: of a system, then of a pair, a choice, a record."""
-    pair = "A claim about a pair has these words, too, beside those of `first` and `second` (`n` where both have the same A and C):"
-    word = "[choice](glossary.md#choice-of-a-pair)"
-    choice = f"A claim about a {word} has these words, too, beside those of the system and of `chosen`, and the matrix `P`:"
-    record = "A claim about a record has these words, too, beside those of the system and of `inputs`, and `B`, `D`, `u` (N x nu) and `x0`:"
-    return [
-        *_quantities_table(quantities()),
-        *("", pair, "", *_quantities_table(OF_ONE_A_AND_C)),
-        *("", choice, "", *_quantities_table(OF_A_CHOICE)),
-        *("", record, "", *_quantities_table(OF_A_RECORD)),
-    ]
-
-
-def _quantities_table(listed: Mapping[str, Quantity]) -> list[str]:
-    rows = ["| name | what it is | meaning | borne by certificates |", "|---|---|---|---|"]
-    for name, one in sorted(listed.items(), key=lambda item: (item[1].windowed, list(Kind).index(item[1].kind), item[0])):
-        borne = (
-            "no: computed" if one.certificates is None else "where true" if name == "stable" else "read off" if name in READ_OFF else "yes"
-        )
-        meaning = one.meaning.replace("|", r"\|")
-        kind = ("a function of s" if one.windowed else str(one.kind)) + (", where there is a circle" if one.circle else "")
-        rows.append(f"| `{name}{'(s)' if one.windowed else ''}` | {kind} | {meaning} | {borne} |")
-    return rows
-
-
-READ_OFF = ("n", "m", "p", "k", "N", "nu")
-TABLES: dict[str, Callable[[], list[str]]] = {
-    "adversary.md": attacks_table,
-    "claims.md": claims_table,
-    "hypotheses.md": hypotheses_table,
-    "paper-to-proof.md": paper_to_proof,
-    "your-claims.md": quantities_table,
-}
-
-
-def filled(page: str, rows: list[str]) -> str:
-    """The page with these rows between its two marks. Raises ValueError where it does not have them."""
-    before, rest = page.split(BEGIN)
-    _, after = rest.split(END)
-    return "\n".join([before + BEGIN, "", *rows, "", END + after])
-
-
-def main() -> None:
-    """Writes the tables into their pages, and the picture."""
-    for name, rows in TABLES.items():
-        page = HERE / name
-        page.write_text(filled(page.read_text("utf-8"), rows()), "utf-8")
-    (HERE / "claims.svg").write_text(picture(), "utf-8")
-
+from tools.pages import write
+from tools.tables import fill
 
 if __name__ == "__main__":
-    main()
+    if len(sys.argv) > 1:
+        write(Path(sys.argv[1]))
+    else:
+        fill()

@@ -20,7 +20,7 @@ from ..base.progress import Progress, silent
 from ..base.sheets import Shown
 from ..exact.limits.experiments import Experiment
 from ..exact.system.systems import System
-from .rocq.build import INSTALL, BrokenTheory, NoRocq
+from .rocq.build import INSTALL, BrokenTheory, NoRocq, NotProved
 from .rocq.recompute import Recomputed, recomputed
 from .trust import checker
 
@@ -216,7 +216,7 @@ def _subject(given: Any) -> checker.System:
 def _recomputed(certificates: Sequence[Any], progress: Progress = silent) -> list[Recomputed]:
     try:
         return recomputed(certificates, progress)
-    except NoRocq as error:
+    except (NoRocq, NotProved) as error:
         raise InvalidInput(f"rocq: {error}") from None
     except BrokenTheory as error:
         raise InvalidInput(f"rocq: this version of Rocq does not compile the theory ({error}); {INSTALL}") from None

@@ -64,7 +64,7 @@ class KeptAnswers:
         """Keep what a task came to."""
         if self._lines is None:
             return
-        kept = {"outcome": asdict(found)} if isinstance(found, Outcome) else {"rows": [asdict(row) for row in found]}
+        kept = {"outcome": _entries(found)} if isinstance(found, Outcome) else {"rows": [_entries(row) for row in found]}
         if not any(one.verdict == Verdict.ERROR for one in _several(found)):
             self._note(task=task, seconds=seconds, **kept)
 
@@ -126,10 +126,19 @@ def _read(line: Mapping[str, Any]) -> Outcome | tuple[Row, ...]:
     return _outcome(line["outcome"]) if "outcome" in line else tuple(_row(row) for row in line["rows"])
 
 
+def _entries(one: Outcome | Row) -> dict[str, Any]:
+    return {**asdict(one), "decided": sorted(one.decided)}
+
+
+def _decided(entries: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the entries with the certificates as a set; a line of an earlier version, which no run goes on with, has their number."""
+    return {name: value for name, value in entries.items() if name != "accepted"} | {"decided": frozenset(entries.get("decided", ()))}
+
+
 def _outcome(entries: Mapping[str, Any]) -> Outcome:
-    return Outcome(**{**entries, "verdict": Verdict(entries["verdict"]), "certificates": tuple(entries["certificates"])})
+    return Outcome(**{**_decided(entries), "verdict": Verdict(entries["verdict"]), "certificates": tuple(entries["certificates"])})
 
 
 def _row(entries: Mapping[str, Any]) -> Row:
     several = {name: tuple(entries[name]) for name in ("dropped", "certificates", "theorems", "attacks")}
-    return Row(**{**entries, **several, "verdict": Verdict(entries["verdict"])})
+    return Row(**{**_decided(entries), **several, "verdict": Verdict(entries["verdict"])})

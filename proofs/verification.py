@@ -21,7 +21,7 @@ from .adversary.catalogue import WITHOUT
 from .deciding import Check, Without, decided
 from .hypotheses import ablations
 from .kept_answers import keeping
-from .rocq.build import BrokenTheory, NoRocq, NotProved
+from .rocq.build import BrokenTheory, NoRocq, NotProved, believed
 from .rocq.locks import held
 from .rocq.sources import sources
 from .rocq.theorems import Theorems
@@ -58,9 +58,8 @@ def verify(
 
     >>> import faultspace as fs
     >>> report = fs.verify(["example-v"], jobs=1)
-    >>> print(report.summary())
+    >>> print(report.title)
     1 claim decided: every verdict is the expected one
-        example-v                           AMENDED
     >>> "window ranks [2, 4, 5, 6, 7, 8] for s = 1..6, left minimal indices [2]" in report.claims[0].readings[0].outcome.evidence
     True
     """
@@ -110,19 +109,20 @@ def verify(
     found = [row for one in experiments for row in answers[Without(one.name)].found]
     rows = tuple(of_row(_row_with_theorems(row, machine), attacks) for row in found)
     report("done", total, total)
-    return Report(effort, tuple(results), rows, kept.corpus, time.perf_counter() - started, machine.message)
+    return Report(effort, tuple(results), rows, kept.corpus, time.perf_counter() - started, machine.message, machine.believed)
 
 
 @dataclass(frozen=True)
 class _Machine:
     """Rocq's part in a run: the theorems that it checked, or why it failed (None: it is not here), a message about it, and the locks of
-    the theorems, which hold without it too.
+    the theorems, which hold without it too. `believed`: by which programs and files it was checked.
     """
 
     theorems: Theorems | None
     failure: str | None
     message: str
     locks: Mapping[str, str] = field(default_factory=dict)
+    believed: Mapping[str, str | None] | None = None
 
 
 def _theorems(claims: Sequence[Claim], report: Progress) -> _Machine:
@@ -138,12 +138,19 @@ def _theorems(claims: Sequence[Claim], report: Progress) -> _Machine:
         message = f"{error}. Without it, readings that have a proof in proofs/theory rest on their certificates"
         return _Machine(None, None, message, {name: lock.sha256 for name, lock in held(sources()).theorems.items()})
     except (BrokenTheory, NotProved) as error:
-        return _Machine(None, f"Rocq: {error}", f"failed: {error}")
+        return _Machine(None, f"Rocq: {error}", f"failed: {error}", believed=_believed())
     message = (
         f"Rocq {theorems.version}: {counted(len(theorems.statements), 'theorem')}, all as "
         f"locked and closed under the global context; {TRUSTED}"
     )
-    return _Machine(theorems, None, message, theorems.locks)
+    return _Machine(theorems, None, message, theorems.locks, _believed())
+
+
+def _believed() -> Mapping[str, str | None] | None:
+    try:
+        return believed()
+    except NoRocq:
+        return None
 
 
 def _with_theorems(result: ReadingResult, machine: _Machine) -> ReadingResult:

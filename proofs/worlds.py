@@ -33,7 +33,7 @@ from .evidence.corpus import CORPUS, examine
 from .evidence.material import Folder
 from .evidence.orbits_by_stages import LARGEST, orbit_count, orbits_over, pairs
 from .verdict.verdicts import Verdict
-from .verdict.workbench import Workbench
+from .verdict.workbench import Workbench, all_accepted
 
 FORMAT = "faultspace-worlds/1"
 NONE_MEETS = "no system of the corpus meets the hypotheses"
@@ -82,7 +82,7 @@ def examined(unit: Unit) -> Found:
         outcome = Check(name).done(bench)
         if outcome.verdict != Verdict.CERTIFIED and outcome.evidence != NONE_MEETS:
             found["failing"].append(f"{name}: {outcome.verdict}, {outcome.evidence}")
-    sums = {"orbits": len(evidence), "systems": sum(e.weight for e in evidence), "accepted": sum(e.accepted for e in evidence)}
+    sums = {"orbits": len(evidence), "systems": sum(e.weight for e in evidence), "accepted": len(all_accepted(evidence))}
     return found | sums | {"seconds": round(time.process_time() - started, 2)}
 
 

@@ -14,10 +14,13 @@ all tests again, and each command that a test starts all modules of ours.
 
 import contextlib
 import os
+import subprocess
 import sys
+from pathlib import Path
 from typing import Any
 
 import pytest
+from filelock import FileLock
 from hypothesis import settings
 
 from tests.thorough import examples
@@ -56,3 +59,15 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 
         with contextlib.suppress(BrokenTheory, NoRocq):  # the tests tell
             compiled_theory()
+
+
+@pytest.fixture(scope="session")
+def certificates_of_a_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder into which a run of the main job wrote its certificates, one run for all processes of a session."""
+    base = tmp_path_factory.getbasetemp()
+    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "run"
+    with FileLock(f"{folder}.lock"):
+        if not folder.exists():
+            command = [sys.executable, "-m", "faultspace", "verify", "--effort", "quick", "--jobs", "2"]
+            subprocess.run([*command, "--out", str(folder)], check=True)
+    return folder

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 
 from flint import fmpq, fmpz_mat
 
+from ...base.progress import Progress, silent
 from ..algebra import polynomials
 from ..algebra.fields import PrimeField, Rationals
 from ..algebra.matrices import Matrix, beside, column_basis, rank, right_null_space, row_profile, solve_left, stacked
@@ -65,7 +66,7 @@ def infinite_zero_orders(kernel: KernelRepresentation) -> tuple[int, ...]:
     return tuple(orders)
 
 
-def invariant_zero_polynomial(kernel: KernelRepresentation, degree: int) -> Poly:
+def invariant_zero_polynomial(kernel: KernelRepresentation, degree: int, on_progress: Progress = silent) -> Poly:
     """The product of the invariant polynomials of the pencil, monic; `degree` is n_f.
 
     Over Q: the gcd of minors of compressed pencils, which is complete as soon as its degree is n_f. Else: the zero dynamics.
@@ -74,7 +75,7 @@ def invariant_zero_polynomial(kernel: KernelRepresentation, degree: int) -> Poly
     if degree == 0:
         return (one,)
     if isinstance(kernel.system.field, Rationals):
-        return _gcd_of_minors(kernel, degree)
+        return _gcd_of_minors(kernel, degree, on_progress)
     return zero_dynamics_polynomial(kernel.system)
 
 
@@ -170,7 +171,7 @@ def _linear(constant: Matrix, slope: Matrix) -> PolyMatrix:
     return [[polynomials.trimmed(pair) for pair in zip(row, other, strict=True)] for row, other in pairs]
 
 
-def _gcd_of_minors(kernel: KernelRepresentation, degree: int) -> Poly:
+def _gcd_of_minors(kernel: KernelRepresentation, degree: int, on_progress: Progress) -> Poly:
     """gcd of det(R P(q) S) over integer R, S, taken until its degree is n_f; each is a multiple of the invariant polynomials."""
     system = kernel.system
     size = system.n + kernel.normal_rank
@@ -184,7 +185,11 @@ def _gcd_of_minors(kernel: KernelRepresentation, degree: int) -> Poly:
         (top, bottom), (slope_top, slope_bottom) = h.numer_denom(), e.numer_denom()
         a, b = fmpz_mat(top * slope_bottom), fmpz_mat(slope_top * bottom)
         points = [fmpq(k) for k in range(system.n + 1)]
-        minor = polynomials.interpolate(points, [fmpq((a + b * int(k.p)).det()) for k in points])
+        values = []
+        for k in range(len(points)):
+            values.append(fmpq((a + b * k).det()))
+            on_progress("zeros", k + 1, len(points))
+        minor = polynomials.interpolate(points, values)
         result = polynomials.gcd(result, minor)
     return result
 

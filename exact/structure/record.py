@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from ...base.progress import Progress, silent
 from ...base.sheets import Shown
 from ..algebra.matrices import Matrix
 from ..algebra.notation import named_matrix, polynomial, several
@@ -125,13 +126,14 @@ class Structure(Shown):
         }
 
 
-def analyze(system: System) -> Structure:
+def analyze(system: System, *, on_progress: Progress | None = None) -> Structure:
     """Compute all that is known exactly about a system: its indices, zeros, delays, window ranks and fault space.
 
     `system` is a ResidualSystem or a FaultySystem over any field, with n states, m faults and p outputs, of any size, observable or not,
     left-invertible or not; B and D play no part. The Structure has `kernel.lag` (a number of samples), `kernel.left_minimal_indices`,
     `invariant_zero_polynomial` (ascending coefficients), `infinite_zero_orders`, `delay_known_state` and `delay_unknown_state` (samples, or
-    None where there is no inverse) and `fault_space`, whose basis is n_z x (n + p) with rows [f' g']. Source: [G25]; [W91] for the lag.
+    None where there is no inverse) and `fault_space`, whose basis is n_z x (n + p) with rows [f' g']. `on_progress` hears how many of the
+    points are done from which the zeros are interpolated, which is most of the work. Source: [G25]; [W91] for the lag.
 
     Raises InvalidInput for anything that is no system.
 
@@ -150,7 +152,7 @@ def analyze(system: System) -> Structure:
     return Structure(
         kernel=kernel,
         right_minimal_indices=right,
-        invariant_zero_polynomial=invariant_zero_polynomial(kernel, finite),
+        invariant_zero_polynomial=invariant_zero_polynomial(kernel, finite, on_progress or silent),
         infinite_zero_orders=infinite,
         observable=_is_observable(system),
         controllable=_is_observable(system.transposed()),

@@ -1,6 +1,8 @@
 """What a long run has found is kept in a file of lines of JSON, so that the same command goes on where it was stopped.
 
 KeptLines    the lines of a file, which this run has for itself; `note` appends one at once
+append       a content to a file, whole or not at all
+lock_of      the lock for which a file of ours stands
 
 A line that a stop cut short, which can be the last alone, is taken out. What the operating system has been handed survives the death of our
 process.
@@ -8,8 +10,10 @@ process.
 
 from __future__ import annotations
 
+import errno
 import json
 import os
+import stat
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -18,8 +22,8 @@ from typing import Any
 from filelock import FileLock, Timeout
 
 from .errors import InvalidInput, quote_path
-from .regular_files import open_regular
-from .writing import reason
+from .regular_files import open_own
+from .writing import MODE, NO_LINK, reason
 
 Line = Mapping[str, Any]
 
@@ -38,9 +42,9 @@ class KeptLines:
 
 
 def append(path: Path, content: bytes) -> None:
-    """Append the content to a file, or leave it as it was. Raises InvalidInput where that cannot be."""
+    """Append the content to a file, or leave it as it was. Raises InvalidInput where that cannot be, and for a link."""
     try:
-        descriptor = os.open(path, os.O_WRONLY | os.O_APPEND)
+        descriptor = os.open(path, os.O_WRONLY | os.O_APPEND | NO_LINK | getattr(os, "O_NONBLOCK", 0))
         try:
             before, written = os.fstat(descriptor).st_size, 0
             try:
@@ -56,6 +60,19 @@ def append(path: Path, content: bytes) -> None:
         raise InvalidInput(f"{quote_path(str(path))}: cannot be written ({reason(error)}), expected another path") from None
 
 
+def lock_of(path: Path) -> FileLock:
+    """Return the lock for which the file at `path` stands, which is made, to be taken at once or not at all. Raises OSError for what is
+    there and is no empty file of its own: to take a lock empties its file."""
+    descriptor = os.open(path, os.O_RDWR | os.O_CREAT | NO_LINK | getattr(os, "O_NONBLOCK", 0), MODE)
+    try:
+        found = os.fstat(descriptor)
+    finally:
+        os.close(descriptor)
+    if not stat.S_ISREG(found.st_mode) or found.st_size or found.st_nlink > 1:
+        raise FileExistsError(errno.EEXIST, f"{quote_path(path.name)} is there and no lock", str(path))
+    return FileLock(path, timeout=0)
+
+
 @contextmanager
 def keeping_lines(path: Path, format: str, good: Callable[[Line], bool], option: str) -> Iterator[KeptLines]:
     """Lock the file against other runs, make it where it is not there, and yield its lines, for which `good` says whether they are ours.
@@ -64,9 +81,8 @@ def keeping_lines(path: Path, format: str, good: Callable[[Line], bool], option:
     or that has other lines.
     """
     name = quote_path(str(path))
-    lock = FileLock(path.with_name(f".{path.name}.lock"), timeout=0)
     try:
-        os.stat(path.parent)  # the lock would make the folders that a slip names
+        lock = lock_of(path.with_name(f".{path.name}.lock"))
         lock.acquire()
     except Timeout:
         raise InvalidInput(f"{option}: another run works with {name}; wait for its end, or name another file") from None
@@ -80,8 +96,8 @@ def keeping_lines(path: Path, format: str, good: Callable[[Line], bool], option:
 
 def _read(path: Path, format: str, good: Callable[[Line], bool], option: str, name: str) -> list[Line]:
     try:
-        path.touch()
-        with open_regular(path, "a file of lines") as stream:
+        os.close(os.open(path, os.O_RDWR | os.O_CREAT | NO_LINK | getattr(os, "O_NONBLOCK", 0), MODE))
+        with open_own(path, "a file of lines") as stream:
             content = stream.read()
         whole = content[: content.rfind(b"\n") + 1]
         lines = [json.loads(line) for line in whole.splitlines()]

@@ -10,12 +10,14 @@ import sys
 import textwrap
 from contextlib import suppress
 
+from .others_text import printable
+
 LONGEST_LINE = 1200
 
 
 def say(message: str) -> None:
     """Print one line on standard error, whatever the message holds, on a terminal broken between words; a long one lacks its middle."""
-    line = " ".join(message.split())
+    line = printable(" ".join(message.split()))
     if len(line) > LONGEST_LINE:
         line = f"{line[: LONGEST_LINE // 2]} ... {line[-LONGEST_LINE // 2 :]}"
     line = f"faultspace: {line}"

@@ -12,10 +12,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
 
-# Raw HTML in the text, such as a channel's name, is shown as it stands and never becomes part of the page.
+from .others_text import policy
+
+# HTML, pictures and links in the text, such as a channel's name, are shown as they stand and never become part of the page.
 LONG = 30  # letters of an answer, from which on it is set smaller
 WIDE = 1.2  # times as wide as tall a picture is that a phone shows at a size at which it can be read, to be scrolled
 PRESET, OPTIONS = "commonmark", {"html": False}
+NO_RULES = ["image", "link", "autolink", "reference", "html_block", "html_inline", "entity"]  # for text of others
 
 STYLE = """
 :root { color-scheme: light dark; --ink: #1b1f24; --paper: #fff; --soft: #57606a; --line: #d0d7de; --card: #f6f8fa; --accent: #0550ae; }
@@ -55,6 +58,7 @@ PAGE = """<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
+{policy}
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>{title}</title>
 <style>{style}</style>
@@ -96,7 +100,7 @@ def page(title: str, text: str, *, tiles: Sequence[Tile] = (), pictures: Iterabl
     """
     from markdown_it import MarkdownIt  # not before a page is wanted: it takes a tenth of a second
 
-    parser = MarkdownIt(PRESET, OPTIONS)
+    parser = MarkdownIt(PRESET, OPTIONS).disable(NO_RULES)
     head, *sections = f"\n{text}".split("\n## ")
     waiting = list(pictures)
     body = [parser.render(head), _tiles(tiles)]
@@ -107,7 +111,7 @@ def page(title: str, text: str, *, tiles: Sequence[Tile] = (), pictures: Iterabl
         body += [f"<section>{parser.render(f'## {section}')}", *map(_figure, here), "</section>"]
     if waiting:
         body += ["<section><h2>Pictures</h2>", *map(_figure, waiting), "</section>"]
-    return PAGE.format(title=escape(title), style=STYLE, body="\n".join(body), foot=escape(foot))
+    return PAGE.format(policy=policy([STYLE]), title=escape(title), style=STYLE, body="\n".join(body), foot=escape(foot))
 
 
 def _tiles(tiles: Sequence[Tile]) -> str:

@@ -22,6 +22,7 @@ from threading import Event, Thread
 from typing import Protocol
 
 from .messages import say
+from .others_text import printable
 
 Progress = Callable[[str, int, int], None]
 
@@ -139,7 +140,7 @@ def _moving(now: Callable[[], State], stopped: Event) -> None:
             state = now()
             minutes, seconds = divmod(int(time.monotonic() - begun), 60)
             elapsed, total = f"{minutes}:{seconds:02}", state.total or None
-            bar.update(task, description=state.stage, completed=state.done, total=total, elapsed=elapsed, amount=state.amount)
+            bar.update(task, description=printable(state.stage), completed=state.done, total=total, elapsed=elapsed, amount=state.amount)
             if stopped.wait(FRAME):
                 return
 

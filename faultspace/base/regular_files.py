@@ -1,16 +1,19 @@
 """This opens files that people name; what may never end, or would wait for somebody who writes, is refused at once.
 
-open_regular   a file as a stream of bytes; pipes, devices and folders are no files
+open_regular     a file as a stream of bytes; pipes, devices and folders are no files
+open_own         the same for a file that we wrote: no link is
+standard_input   the bytes of standard input
 """
 
 from __future__ import annotations
 
 import os
 import stat
+import sys
 from typing import BinaryIO
 
 from .errors import InvalidInput
-from .writing import reason
+from .writing import NO_LINK, reason
 
 
 def open_regular(path: str | os.PathLike[str], expected: str) -> BinaryIO:
@@ -24,9 +27,18 @@ def open_regular(path: str | os.PathLike[str], expected: str) -> BinaryIO:
     Traceback (most recent call last):
     faultspace.base.errors.InvalidInput: is a pipe or a device, expected a JSON file
     """
+    return _opened(path, expected, 0)
+
+
+def open_own(path: str | os.PathLike[str], expected: str) -> BinaryIO:
+    """Return the file at `path` as `open_regular` does. Raises InvalidInput for a link, too, wherever it leads."""
+    return _opened(path, expected, NO_LINK)
+
+
+def _opened(path: str | os.PathLike[str], expected: str, flags: int) -> BinaryIO:
     try:
         # What is not there on Windows is not needed there: no pipe has a name in a folder.
-        descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+        descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0) | flags)
     except (OSError, ValueError) as error:
         raise InvalidInput(f"cannot be read ({reason(error)}), expected {expected}") from None
     kind = os.fstat(descriptor).st_mode
@@ -35,3 +47,10 @@ def open_regular(path: str | os.PathLike[str], expected: str) -> BinaryIO:
         what = "is a directory" if stat.S_ISDIR(kind) else "is a pipe or a device"
         raise InvalidInput(f"{what}, expected {expected}")
     return os.fdopen(descriptor, "rb")
+
+
+def standard_input() -> BinaryIO:
+    """Return standard input as a stream of bytes. Raises InvalidInput where whoever started us has closed it."""
+    if sys.stdin is None:
+        raise InvalidInput("standard input: is closed, expected one to read from")
+    return sys.stdin.buffer

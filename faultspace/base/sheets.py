@@ -15,6 +15,8 @@ from html import escape
 from math import log
 from textwrap import fill
 
+from .others_text import lines, printable
+
 Sheet = Iterable[tuple[str, str]]
 
 NAME_WIDTH = 36
@@ -59,10 +61,10 @@ class Shown(ABC):
     def summary(self) -> str:
         """Return the record in words: the title, then a line for each pair of the sheet, or more where 80 columns are not enough for it.
         These are the words that the command of the same name prints."""
-        return "\n".join([self.title, *(_broken(name, value) for name, value in self.sheet())])
+        return lines("\n".join([self.title, *(_broken(name, value) for name, value in self.sheet())]))
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__}: {self.title}>"
+        return printable(f"<{type(self).__name__}: {self.title}>")
 
     def _repr_html_(self) -> str:
         """Notebooks show the sheet as this table."""

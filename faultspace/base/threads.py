@@ -1,13 +1,14 @@
-"""This holds the threads of the linear algebra: what the package computes has one, whatever the environment says.
+"""This holds the threads of the linear algebra: what the package computes has one, whatever the environment says. Nor does it matter
+what a caller has told numpy to do where numbers grow too large or too small (`numpy.seterr`): inside, numpy does what it does by itself.
 
 The matrices here are small, or long products that wait for memory: several threads lose more time by waiting for each other than they
 save. They also split sums at other places, and results are to be the same bytes on every machine that has the same libraries.
 
-one_thread      a context and a decorator: within it the BLAS of numpy and of scipy has one thread
+one_thread      a context and a decorator: within it the BLAS of numpy and of scipy has one thread, and numpy its own errors of floats
 
 With most libraries the number of threads belongs to the process. It is set when the first of any number of threads of Python enters, and
 given back when the last has left, so that those inside never see another number; what others compute meanwhile has one thread as well.
-Under OpenMP it belongs to each thread, which gives it back by itself. Entries within entries only count. A BLAS that threadpoolctl does not
+Under OpenMP it belongs to each thread, which gives it back by itself. Entries within entries do nothing. A BLAS that threadpoolctl does not
 know (Apple's Accelerate) keeps its threads.
 """
 
@@ -80,11 +81,16 @@ def _leave(before: list[int]) -> None:
 @contextmanager
 def one_thread() -> Iterator[None]:
     """Compute with one BLAS thread: `with one_thread():` around a body, or `@one_thread()` above a function."""
-    before = None if _here.depth else _enter()
+    if _here.depth:
+        yield
+        return
+    import numpy as np
+
+    before = _enter()
     _here.depth += 1
     try:
-        yield
+        with np.errstate(divide="warn", over="warn", under="ignore", invalid="warn"):
+            yield
     finally:
         _here.depth -= 1
-        if before is not None:
-            _leave(before)
+        _leave(before)

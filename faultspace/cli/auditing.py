@@ -19,6 +19,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ..base.errors import InvalidInput, quote_path
+from ..base.others_text import printable
 from ..base.processes import Limits
 from ..base.progress import working
 from ..base.writing import reason, write_text
@@ -126,7 +127,7 @@ def list_checks(asked: Asked, *, as_json: bool) -> int:
         print_json([{"check": one.full_name, "kind": str(one.kind), "claim": one.claim, "effect": one.effect} for one in checks])
     else:
         for one in checks:
-            sys.stdout.write(one.full_name + "\n")
+            sys.stdout.write(printable(one.full_name) + "\n")
     return ANSWERED
 
 

@@ -6,7 +6,6 @@ run          the command's body
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 
 from rich.console import Console
@@ -16,7 +15,9 @@ from .. import packaged_examples
 from ..base.errors import InvalidInput, in_file, quote_path
 from ..base.messages import say
 from ..base.progress import working
+from ..base.regular_files import standard_input
 from ..proofs.checking import CheckedFile, ask_rocq, check_file
+from ..proofs.rocq.build import believed, told
 from ..proofs.trust import checker
 from .consoles import answers, paragraph, print_json
 from .failures import NOT_AS_EXPECTED
@@ -53,7 +54,9 @@ def run(names: Sequence[str], *, systems: Sequence[str], rocq: bool = False, as_
 def _with_rocq(files: Sequence[CheckedFile]) -> list[CheckedFile]:
     try:
         with working("asking Rocq") as tell:
-            return ask_rocq(files, tell)
+            asked = ask_rocq(files, tell)
+        say(f"Rocq: {told(believed())}")
+        return asked
     except InvalidInput as error:
         raise InvalidInput(f"--{error}") from None
 
@@ -84,7 +87,7 @@ def _system(name: str) -> checker.System:
             if name.startswith(packaged_examples.PREFIX):
                 data = packaged_examples.content(name)
             elif name == "-":
-                data = sys.stdin.buffer.read(checker.MAX_BYTES + 1)
+                data = standard_input().read(checker.MAX_BYTES + 1)
             else:
                 data = checker.content(name)
         except checker.Malformed as error:

@@ -12,19 +12,28 @@ from __future__ import annotations
 import json
 import os
 import sys
+from collections.abc import Iterator
 
 from rich.cells import cell_len
-from rich.console import Console
+from rich.console import Console, ConsoleOptions, RenderableType
 from rich.measure import Measurement
+from rich.segment import Segment
 from rich.table import Table
 from rich.text import Text
+
+from ..base.others_text import lines
 
 PIPED_WIDTH = 140
 UNBOUNDED = 1_000_000
 
 
 class _Answers(Console):
-    """This console leaves a broken pipe to `failures.guarded`."""
+    """This console leaves a broken pipe to `failures.guarded`. Names and texts of others are text on it, whatever characters they have."""
+
+    def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterator[Segment]:
+        """Yield the segments, those of text printable."""
+        for one in super().render(renderable, options):
+            yield one if one.control else Segment(lines(one.text), one.style)
 
     def on_broken_pipe(self) -> None:
         self.quiet = True

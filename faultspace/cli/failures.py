@@ -3,6 +3,7 @@
 guarded       runs a command's body and returns its exit code
 asks_report   reports an error that is ours, with what to send; the code OUR_ERROR
 TRACEBACK     the environment variable that has the traceback of an error of ours printed, too
+holding       a context that gives another one, in which such requests wait: what belongs together is done as a whole
 terminable    a context in which a request to end, such as SIGTERM, comes as Terminated: what was begun is ended and put away
 ANSWERED 0, NOT_AS_EXPECTED 1, BAD_INPUT 2; OUR_ERROR 70 as in sysexits.h; HUNG_UP 129, INTERRUPTED 130, BROKEN_PIPE 141, TERMINATED 143 as
 shells count signals; STOPPED what is said of those that a signal stopped
@@ -23,6 +24,7 @@ from types import FrameType
 from .. import __version__
 from ..base.errors import InvalidInput
 from ..base.messages import LONGEST_LINE, say
+from ..base.others_text import lines
 from .argument_names import as_options
 
 ANSWERED, NOT_AS_EXPECTED, BAD_INPUT, OUR_ERROR = 0, 1, 2, 70
@@ -62,6 +64,50 @@ def terminable() -> Iterator[None]:
             signal.signal(each, signal.SIG_DFL)
 
 
+class Held:
+    """While this is entered, the signals that ask us to end wait."""
+
+    def __init__(self) -> None:
+        self.replaced: dict[int, Callable[[int, FrameType | None], object]] = {}
+        self._inside, self._waiting = False, 0
+
+    def hear(self, number: int, frame: FrameType | None) -> None:
+        """Take a signal, now or at the end of what is held."""
+        if self._inside:
+            self._waiting = number
+        else:
+            self.replaced[number](number, frame)
+
+    def __enter__(self) -> None:
+        self._inside = True
+
+    def __exit__(self, *_: object) -> None:
+        self._inside = False
+        if number := self._waiting:
+            self._waiting = 0
+            self.replaced[number](number, None)
+
+
+@contextmanager
+def holding() -> Iterator[Held]:
+    """Give what holds interrupts and requests to end, where somebody has said what they do."""
+    held = Held()
+    if current_thread() is main_thread():
+        ends = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+        for each in ends:
+            handler = signal.getsignal(each)
+            if callable(handler) and not isinstance(handler, signal.Handlers):
+                held.replaced[each] = handler
+        for each in held.replaced:
+            signal.signal(each, held.hear)
+    try:
+        yield held
+    finally:
+        for each, handler in held.replaced.items():
+            if signal.getsignal(each) == held.hear:
+                signal.signal(each, handler)
+
+
 def guarded(body: Callable[[], int]) -> int:
     """Return the exit code of `body`, or the one that belongs to what it raised."""
     try:
@@ -97,7 +143,7 @@ def asks_report(error: Exception) -> int:
     The traceback comes too where TRACEBACK is set.
     """
     if os.environ.get(TRACEBACK):
-        traceback.print_exception(error)
+        sys.stderr.write(lines("".join(traceback.format_exception(error))))
     frames = traceback.extract_tb(error.__traceback__)
     place = f" in {frames[-1].name}, line {frames[-1].lineno} of {os.path.basename(frames[-1].filename)}" if frames else ""
     what = " ".join(f"{type(error).__name__}: {error}".split())

@@ -15,6 +15,7 @@ from rich.text import Text
 
 from ..base.errors import InvalidInput, in_file, quote_path
 from ..base.messages import say
+from ..base.progress import Progress, Tell, working
 from ..base.sheets import Sheet, line
 from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, BAD_INPUT
@@ -36,19 +37,26 @@ class FileAnswer:
     found: Readable
 
 
-def answer_each(names: Sequence[str], answer: Callable[[str], FileAnswer], *, as_json: bool) -> int:
-    """Print the answer on each file; as JSON, one file gives an object, several an array of objects that also name their "file"."""
+def answer_each(names: Sequence[str], doing: str, answer: Callable[[str, Progress], FileAnswer], *, as_json: bool) -> int:
+    """Print the answer on each file; as JSON, one file gives an object, several an array of objects that also name their "file".
+
+    `doing` says on standard error what is done with a file, until all that is asked of it is computed, its last lines included.
+    """
     code = ANSWERED
     console = answers()
     documents = []
     for name in names:
         try:
-            given = answer(name)
-            with in_file(name):
-                if as_json:
-                    documents.append({"file": name, **given.found.to_json()})
-                else:
-                    _print(console, name, given)
+            with working(doing.format(quote_path(name))) as tell:
+                given = answer(name, _of(name, tell))
+                tell(f"{quote_path(name)}: writing the answer")
+                with in_file(name):
+                    document = given.found.to_json() if as_json else {}
+                    sheet = [] if as_json else list(given.found.sheet())
+            if as_json:
+                documents.append({"file": name, **document})
+            else:
+                _print(console, name, given.heading, sheet)
         except InvalidInput as error:
             say(str(error))
             code = BAD_INPUT
@@ -59,9 +67,14 @@ def answer_each(names: Sequence[str], answer: Callable[[str], FileAnswer], *, as
     return code
 
 
-def _print(console: Console, name: str, given: FileAnswer) -> None:
+def _of(name: str, tell: Tell) -> Progress:
+    """Return what tells the stages of the work on a file."""
+    return lambda stage, done, total: tell(f"{quote_path(name)}: {stage}", done, total)
+
+
+def _print(console: Console, name: str, heading: str, sheet: Sheet) -> None:
     """Print the lines without a frame."""
-    paragraph(console, Text.assemble((quote_path(name), "bold"), f"   {given.heading}"))
-    for label, value in given.found.sheet():
+    paragraph(console, Text.assemble((quote_path(name), "bold"), f"   {heading}"))
+    for label, value in sheet:
         paragraph(console, *((value, line(label, " ")[:-1]) if value else (Text(line(label, ""), style="bold cyan"),)))
     console.print()

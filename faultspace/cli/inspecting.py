@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..base.errors import in_file, quote_path
+from ..base.errors import in_file
 from ..base.messages import say
-from ..base.progress import working
+from ..base.progress import Progress
 from ..exact.structure.record import analyze
 from .file_by_file import FileAnswer, answer_each
 from .reading_files import read_system
@@ -24,12 +24,12 @@ FLOATS = (
 def run(names: Sequence[str], *, as_json: bool, floats_exactly: bool) -> int:
     """Inspects one file after the other. The largest exit code."""
 
-    def answer(name: str) -> FileAnswer:
+    def answer(name: str, on_progress: Progress) -> FileAnswer:
         system = read_system(name, floats_exactly=floats_exactly)
-        with in_file(name), working(f"inspecting {quote_path(name)}"):
-            found = analyze(system.residual)
+        with in_file(name):
+            found = analyze(system.residual, on_progress=on_progress)
         if floats_exactly:
             say(FLOATS)
         return FileAnswer(system.sizes, found)
 
-    return answer_each(names, answer, as_json=as_json)
+    return answer_each(names, "inspecting {}", answer, as_json=as_json)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import sys
+import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,12 +18,16 @@ import numpy as np
 
 from ..base.errors import InvalidInput, in_file, quote_path, shorten
 from ..base.messages import say
+from ..base.others_text import lines, printable
 from ..base.progress import evenly, working
+from ..base.regular_files import standard_input
 from ..base.sheets import counted
+from ..base.threads import one_thread
 from ..numeric.data.files import read_record
+from ..numeric.data.following import Followed, bounded
 from ..numeric.data.records import Record, recorded
 from ..numeric.data.selectors import split_names
-from ..numeric.data.streams import RESTARTED, TableStream, followed
+from ..numeric.data.streams import RESTARTED, TableStream, seldom
 from ..numeric.method.model.models import FORMAT as MODEL_FORMAT
 from ..numeric.method.model.models import StateSpaceModel
 from ..numeric.plant.monitor.alarms import Alarm
@@ -31,10 +36,11 @@ from ..numeric.plant.monitor.monitoring import ALARM_LEVEL, WINDOW, Monitor
 from ..numeric.plant.monitor.saving import refuse
 from ..numeric.plant.report.result_files import MODEL
 from .argument_names import as_options, naming, of_file
-from .failures import ANSWERED, INTERRUPTED
+from .failures import ANSWERED, BAD_INPUT, Held, holding
 from .reading_files import read_json
 
 STDIN = "standard input"
+SAVING = 60.0  # seconds between savings on the way, which are what a loss of power, or a kill, costs at most
 
 
 @dataclass(frozen=True)
@@ -65,34 +71,119 @@ def run(model: str, watching: Watching, *, inputs: Sequence[str], outputs: Seque
         raise InvalidInput("--idle: got no --follow, expected the file that is watched for so long")
     if watching.save is not None:
         refuse(watching.save)
-    ready = _ready(model, split_names(inputs), split_names(outputs), watching)
-    u_names, y_names = ready.inputs, ready.outputs
     if watching.follow is not None and not Path(watching.follow).is_file():
         raise InvalidInput(f"{quote_path(watching.follow)}: is no file, expected a text table that grows")
-    lines = iter(sys.stdin.buffer.readline, b"") if watching.follow is None else followed(watching.follow, idle=watching.idle)
-    samples = iter(TableStream(lines, [*u_names, *y_names], watching.follow or STDIN))
-    watch = ready.watch
-    try:
-        if watch is None:
-            watch = _calibrated(ready, samples, watching)
-        for note in watch.notes:
+    watch = _Watch(_ready(model, split_names(inputs), split_names(outputs), watching), watching, as_json)
+    with holding() as held, one_thread():
+        try:
+            watch.begin()
+            watch.go_on(held)
+        finally:  # an interrupt, and an error of ours, end with what was seen, too
+            saved = watch.conclude(held)
+    return ANSWERED if saved else BAD_INPUT
+
+
+class _Watch:
+    """This is a watch from its first line to its last.
+
+    A signal may come anywhere: what belongs together is done while it is `held`. So a monitor that is saved has seen each sample whole or
+    not at all, stands where `_place` says, and no alarm is told twice or never.
+    """
+
+    def __init__(self, ready: _Ready, watching: Watching, as_json: bool) -> None:
+        self._ready, self._watching, self._as_json, self._monitor = ready, watching, as_json, ready.watch
+        self._followed = None
+        if watching.follow is not None:
+            mark = None if ready.watch is None else ready.watch.mark
+            self._followed = Followed(watching.follow, idle=watching.idle, after=mark, heard=say)
+            self._place = self._followed.begins
+        lines = bounded(standard_input(), say) if self._followed is None else self._followed
+        head = "" if ready.watch is None or ready.watch.mark is None else ready.watch.mark["head"]
+        after = 0 if self._followed is None else self._place.line
+        if after:
+            say(f"{quote_path(watching.follow or '')}: goes on behind line {after}, where the monitor was saved")
+        self._table = TableStream(lines, [*ready.inputs, *ready.outputs], watching.follow or STDIN, after=after, head=head, heard=say)
+        self._samples = iter(self._table)
+        self._untold: list[Alarm] = []
+        self._due, self._unsaved = time.monotonic() + SAVING, 0
+
+    def begin(self) -> None:
+        """Calibrate where the model's file does not hold it, and say what the monitor rests on."""
+        if self._monitor is None:
+            self._monitor = _calibrated(self._ready, self._samples, self._watching)
+            self._move()
+        for note in self._monitor.notes:
             say(note)
-        for sample in samples:
+
+    def go_on(self, held: Held) -> None:
+        """Watch to the end of the stream."""
+        watch, n_u = self._monitor, len(self._ready.inputs)
+        assert watch is not None
+        for sample in self._samples:
+            known = watch.begun_anew
+            with held:
+                if sample is RESTARTED:
+                    watch.restart()
+                else:
+                    self._untold += watch.update(sample[n_u:], sample[:n_u])
+                self._move()
+            self._tell(held)
             if sample is RESTARTED:
                 say("the file begins anew: the state of the plant is forgotten")
-                watch.restart()
-                continue
-            for alarm in watch.update(sample[len(u_names) :], sample[: len(u_names)]):
-                _tell(alarm, as_json)
-    except KeyboardInterrupt:
-        if watch is not None:
-            _conclude(watch, as_json)
-        return INTERRUPTED
-    finally:
-        if watch is not None and watching.save is not None:
-            watch.save(watching.save)
-    _conclude(watch, as_json)
-    return ANSWERED
+            if watch.begun_anew > known and seldom(watch.begun_anew):
+                say(
+                    f"sample {watch.samples - 1}: too much was missing for an unstable model, whose state is as unknown as at the start "
+                    f"({counted(watch.begun_anew, 'time')} so far)"
+                )
+            if self._watching.save is not None and time.monotonic() >= self._due:
+                self._save(self._watching.save)
+                self._due = time.monotonic() + SAVING
+
+    def conclude(self, held: Held) -> bool:
+        """Save the monitor and print the summary; say whether what was to be saved is."""
+        watch, save = self._monitor, self._watching.save
+        if watch is None:
+            return True
+        saved = save is None or self._save(save)
+        self._tell(held)
+        if save is not None and saved:
+            line = f", line {self._place.line + 1} of {quote_path(self._watching.follow or '')}" if self._followed is not None else ""
+            say(f"{quote_path(str(save))}: goes on with sample {watch.samples} of the stream, counted from 0{line}")
+        bad = self._table.bad
+        if self._as_json:
+            text = json.dumps({"summary": watch.to_json() | {"bad_lines": bad}})
+        else:
+            text = lines(f"\n{watch.summary()}") + (f"\n{counted(bad, 'line')} that were no samples" if bad else "")
+        sys.stdout.write(text + "\n")
+        sys.stdout.flush()
+        return saved
+
+    def _move(self) -> None:
+        """Note that all the lines so far are in the monitor."""
+        if self._followed is not None:
+            self._place = self._followed.place
+
+    def _tell(self, held: Held) -> None:
+        """Print the alarms that have not been printed."""
+        if self._untold:
+            with held:
+                for alarm in self._untold:
+                    sys.stdout.write((json.dumps({"alarm": alarm.to_json()}) if self._as_json else printable(alarm.line)) + "\n")
+                self._untold.clear()
+            sys.stdout.flush()
+
+    def _save(self, path: Path) -> bool:
+        """Write the monitor; where that cannot be, the watch goes on, and this is said."""
+        assert self._monitor is not None
+        self._monitor.mark = None if self._followed is None else self._followed.mark(self._place) | {"head": self._table.head}
+        try:
+            self._monitor.save(path)
+        except InvalidInput as error:
+            self._unsaved += 1
+            if seldom(self._unsaved):
+                say(str(error))
+            return False
+        return True
 
 
 @dataclass(frozen=True)
@@ -125,8 +216,8 @@ def _ready(name: str, inputs: list[str], outputs: list[str], watching: Watching)
                 'the model has no "monitoring", which says what its errors are like without fault: it is of an earlier version, or of a '
                 "record that was too short or without noise: try --healthy FILE, a record without fault, or --healthy-until K"
             )
-        with working("setting thresholds"):
-            watch = Monitor.from_json(document, level=watching.level)
+        with working("setting thresholds") as telling:
+            watch = Monitor.from_json(document, level=watching.level, on_progress=evenly(telling))
         if watching.window not in (None, watch.to_json()["window"]):
             raise InvalidInput(
                 f"--window: got {watching.window}, but the file is calibrated for windows of {watch.to_json()['window']} samples: leave it "
@@ -159,43 +250,34 @@ def _calibrated(ready: _Ready, samples: Iterator[np.ndarray | None], watching: W
         with working(f"reading {quote_path(watching.healthy)}") as telling:
             healthy = read_record(watching.healthy, inputs=ready.inputs, outputs=ready.outputs, on_progress=evenly(telling))
     else:
-        healthy = _first(samples, watching.healthy_until or 0, ready.inputs, ready.outputs)
+        healthy, seen = _first(samples, watching.healthy_until or 0, ready.inputs, ready.outputs)
     level, window = ALARM_LEVEL if watching.level is None else watching.level, WINDOW if watching.window is None else watching.window
     worded = as_options if watching.healthy is None else of_file
-    with working("calibrating the thresholds"), naming(worded), in_file(watching.healthy or watching.follow or STDIN):
-        watch = Monitor(ready.plant, healthy, level=level, window=window)
+    with working("calibrating the thresholds") as telling, naming(worded), in_file(watching.healthy or watching.follow or STDIN):
+        watch = Monitor(ready.plant, healthy, level=level, window=window, on_progress=evenly(telling))
     if watching.healthy is None:
-        watch.samples = len(healthy)  # samples are numbered as they stand in the stream
+        watch.samples = seen  # samples are numbered as they stand in the stream
         watch.restart()
     return watch
 
 
-def _first(samples: Iterator[np.ndarray | None], count: int, inputs: Sequence[str], outputs: Sequence[str]) -> Record:
-    """Return the first samples of the stream as a record."""
+def _first(samples: Iterator[np.ndarray | None], count: int, inputs: Sequence[str], outputs: Sequence[str]) -> tuple[Record, int]:
+    """Return the first so many samples of the stream without a gap as a record, and how many have come until then."""
     rows: list[np.ndarray] = []
+    seen, gaps = 0, 0
     for row in samples:
-        if row is RESTARTED:
+        seen += row is not RESTARTED
+        if row is RESTARTED or not np.all(np.isfinite(row)):
+            gaps += 1
+            if seldom(gaps):
+                missing = "samples" if row is RESTARTED else shorten([*inputs, *outputs][int(np.flatnonzero(~np.isfinite(row))[0])])
+                say(f"--healthy-until: {missing} missing behind sample {seen - 1}: the {count} healthy samples begin anew")
             rows = []
             continue
-        if not np.all(np.isfinite(row)):
-            missing = [*inputs, *outputs][int(np.flatnonzero(~np.isfinite(row))[0])]
-            raise InvalidInput(
-                f"--healthy-until: channel {shorten(missing)} is no number at sample {len(rows)}, expected healthy samples without gaps"
-            )
         rows.append(row)
         if len(rows) == count:
             break
     if len(rows) < count:
-        raise InvalidInput(f"--healthy-until: got {counted(len(rows), 'sample')} in all, expected {count} and some to watch")
+        raise InvalidInput(f"--healthy-until: got {counted(len(rows), 'sample')} without a gap, expected {count} and some to watch")
     values = np.array(rows)
-    return recorded(values[:, len(inputs) :], values[:, : len(inputs)], outputs=outputs, inputs=inputs)
-
-
-def _tell(alarm: Alarm, as_json: bool) -> None:
-    sys.stdout.write((json.dumps({"alarm": alarm.to_json()}) if as_json else alarm.line) + "\n")
-    sys.stdout.flush()
-
-
-def _conclude(watch: Monitor, as_json: bool) -> None:
-    sys.stdout.write((json.dumps({"summary": watch.to_json()}) if as_json else f"\n{watch.summary()}") + "\n")
-    sys.stdout.flush()
+    return recorded(values[:, len(inputs) :], values[:, : len(inputs)], outputs=outputs, inputs=inputs), seen

@@ -14,7 +14,6 @@ InvalidInput with one line: the file, the place in it, what was got, what was ex
 from __future__ import annotations
 
 import json
-import sys
 import tempfile
 from collections.abc import Callable
 from fractions import Fraction
@@ -23,7 +22,7 @@ from typing import Any
 
 from .. import packaged_examples
 from ..base.errors import InvalidInput, in_file, quote_path, shorten
-from ..base.regular_files import open_regular
+from ..base.regular_files import open_regular, standard_input
 from ..base.writing import reason, write_text
 from ..exact.algebra.validation import MAX_FILE_BYTES
 from ..exact.limits.experiments import Experiment
@@ -143,7 +142,7 @@ def _content(name: str, kind: str) -> bytes:
         if name.startswith(packaged_examples.PREFIX):
             return packaged_examples.content(name)
         if name == "-":
-            content = sys.stdin.buffer.read(MAX_FILE_BYTES + 1)
+            content = standard_input().read(MAX_FILE_BYTES + 1)
         else:
             with open_regular(name, f"a {kind} file; a pipe is read as - from standard input") as stream:
                 content = stream.read(MAX_FILE_BYTES + 1)

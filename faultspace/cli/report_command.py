@@ -26,7 +26,7 @@ def report(
 ) -> int:
     """Make the page that a reviewer reads.
 
-    One file with everything: the claims as printed and as checked, counterexamples, limits, a small study, what must be believed, what was
+    One file with everything: the claims as stated and as checked, counterexamples, limits, a small study, what must be believed, what was
     wrong. It fetches nothing. Without --run the claims and the statements of the literature are decided first, which takes minutes. Exit 0
     if everything is as expected, else 1: then the page begins with what is not. Needs the extra: pip install 'faultspace[report]'.
     """

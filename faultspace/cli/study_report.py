@@ -14,6 +14,7 @@ import csv
 import json
 import tempfile
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +24,9 @@ from rich.table import Table
 from ..base.errors import InvalidInput, quote_path
 from ..base.messages import say
 from ..base.sheets import counted
+from ..base.writing import new_file, reason
 from ..numeric.plant.report.folders import refuse, replace
+from ..numeric.plant.report.result_pictures import drawn
 from ..numeric.study.groups import QUANTILES, Group, by_phase, by_zeros
 from ..numeric.study.keeping import TEMPORARY
 from ..numeric.study.studies import STUDIES, Study
@@ -137,15 +140,15 @@ def write(studies: Sequence[Study], out: Path) -> list[str]:
     try:
         with tempfile.TemporaryDirectory(prefix=f"{TEMPORARY}-", dir=out) as name:
             folder = Path(name)
-            (folder / DOCUMENT).write_text(json.dumps(document(studies), indent=1) + "\n", encoding="utf-8")
+            texts = {DOCUMENT: json.dumps(document(studies), indent=1), SUMMARY: "\n".join(lines(studies))}
+            for file, text in texts.items():
+                with new_file(folder / file, encoding="utf-8") as stream:
+                    stream.write(f"{text}\n")
             _write_cases(studies, folder / CASES)
-            (folder / SUMMARY).write_text("\n".join(lines(studies)) + "\n", encoding="utf-8")
             _draw(studies, folder)
             written = replace(folder, out, NAMES)
     except OSError as error:
-        raise InvalidInput(
-            f"{quote_path(str(out))}: cannot be written into ({error.strerror or error}), expected a folder that can"
-        ) from None
+        raise InvalidInput(f"{quote_path(str(out))}: cannot be written into ({reason(error)}), expected a folder that can") from None
     return written
 
 
@@ -175,7 +178,7 @@ def _percent(value: float | None, digits: int = 3) -> str:
 def _write_cases(studies: Sequence[Study], path: Path) -> None:
     """Write a row for each estimate of each case of each study, then one for each case that failed, with its index and the reason."""
     plain = ("index", "n_zeros", "minimum_phase", "distance_to_unit_circle", "decibels", "block_rows", "rows", "rank", "n_z", "vacuous")
-    with open(path, "w", encoding="utf-8", newline="") as stream:
+    with new_file(path, encoding="utf-8", newline="") as stream:
         rows = csv.writer(stream, lineterminator="\n")
         found = ("estimator", "estimated_n_z", *METRICS, *(f"random_{metric}" for metric in METRICS), "failure")
         rows.writerow(("study", *plain, "zeros", *found))
@@ -202,4 +205,5 @@ def _draw(studies: Sequence[Study], folder: Path) -> None:
     for study in studies:
         if not study.cases:
             continue
-        study_figure(study).savefig(folder / f"figure-{study.plan.name}.png", dpi=130)
+        for remark in drawn(folder / f"figure-{study.plan.name}.png", partial(study_figure, study)):
+            say(remark)

@@ -1,6 +1,6 @@
 """Print the page of a claim for `faultspace verify --claim ID`.
 
-print_page   as printed, as checked, evidence, attacks, locks and certificates of each reading, then what happens without each hypothesis
+print_page   as stated, as checked, evidence, attacks, locks and certificates of each reading, then what happens without each hypothesis
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ def print_page(console: Console, claim: ClaimResult, rows: Sequence[Row]) -> Non
     """Print the claim in full, and `rows`, what becomes of it without its hypotheses."""
     heading = Text.assemble((claim.claim.id, "bold"), f"  ({claim.claim.reference}): ", verdict_text(claim.verdict, claim.expected))
     paragraph(console, heading)
-    paragraph(console, claim.claim.statement, "  as printed: ")
+    paragraph(console, claim.claim.statement, f"  {claim.claim.whose}: ")
     for result in claim.readings:
-        kind = "repair" if result.reading.repair else "reading"
+        kind = "reading of ours" if result.reading.repair else "reading"
         name = Text.assemble((result.reading.id, "bold"), ": ", verdict_text(result.outcome.verdict, result.expected))
         paragraph(console, name, f"  {kind} ")
         for label, text in _reading(result):
@@ -66,4 +66,4 @@ def _reading(result: ReadingResult) -> Iterator[tuple[str, str]]:
         yield "theorem:", f"{name}, locked as SHA-256 {lock}"
     for certificate in outcome.certificates:
         yield "certificate:", f"{certificate['kind']}, SHA-256 {sha256(certificate)}"
-    yield "seconds:", f"{result.seconds:.1f}"
+    yield "seconds:", f"{result.seconds:.1f}, beside the making of the certificates that readings share"

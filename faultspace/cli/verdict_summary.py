@@ -17,6 +17,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ..base.sheets import counted
+from ..proofs.rocq.build import told
 from ..proofs.verdict.verdicts import ClaimResult, Report, Row, Verdict
 from .consoles import paragraph, print_table
 from .verdict_tables import STYLES
@@ -34,8 +35,15 @@ def print_lines(console: Console, report: Report) -> None:
     if report.hypotheses:
         paragraph(console, hypothesis_words(report.hypotheses), "hypotheses: ")
     paragraph(console, attack_words(report), "attacks: ")
-    paragraph(console, report.machine, "machine-checked: ")
+    print_machine(console, report)
     paragraph(console, Text(HELP, style="dim"))
+
+
+def print_machine(console: Console, report: Report) -> None:
+    """Print what Rocq has checked, and by which programs and files."""
+    paragraph(console, report.machine, "machine-checked: ")
+    if report.believed is not None:
+        paragraph(console, told(report.believed), "believed: ")
 
 
 def print_differences(console: Console, report: Report) -> None:
@@ -49,7 +57,7 @@ def claims_table(claims: Sequence[ClaimResult]) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
     table.add_column("claim", no_wrap=True)
     table.add_column("verdict", no_wrap=True)
-    table.add_column("readings as printed", overflow="fold")
+    table.add_column("readings as stated", overflow="fold")
     table.add_column("readings of ours", overflow="fold")
     for claim in claims:
         name = Text(claim.claim.id) if claim.as_expected else Text(f"! {claim.claim.id}", style="bold red")
@@ -59,7 +67,7 @@ def claims_table(claims: Sequence[ClaimResult]) -> Table:
 
 
 def resting_on(claim: ClaimResult, *, ours: bool) -> str:
-    """Return how many of the readings as printed, or of ours, have which verdict: "1 proved, 2 refuted"."""
+    """Return how many of the readings of the words as stated, or of ours, have which verdict: "1 proved, 2 refuted"."""
     verdicts = [result.outcome.verdict for result in claim.readings if result.reading.repair == ours]
     counts = Counter(verdicts)
     parts = ", ".join(f"{counts[verdict]} {verdict.lower()}" for verdict in Verdict if counts[verdict])
@@ -117,13 +125,11 @@ def attack_words(report: Report) -> str:
 def print_summary(console: Console, report: Report) -> None:
     """Print in one line whether everything is as expected, and of what."""
     readings = [reading for claim in report.claims for reading in claim.readings]
-    accepted = sum(reading.outcome.accepted for reading in readings)
     different = [claim.claim.id for claim in report.claims if not claim.as_expected]
     different += [_without(row) for row in report.hypotheses if not row.as_expected]
-    accepted += sum(row.accepted for row in report.hypotheses if row.verdict == Verdict.REFUTED and row.already is None)
     tail = (
         f"{counted(len(readings), 'reading')}, {counted(len(report.hypotheses), 'set')} of "
-        f"hypotheses dropped, {counted(accepted, 'certificate')} accepted, "
+        f"hypotheses dropped, {counted(len(report.decided()), 'distinct certificate')} accepted, "
         f"effort {report.effort}, {report.seconds:.0f} s"
     )
     count = "the claim" if len(report.claims) == 1 else f"all {len(report.claims)} claims"

@@ -33,16 +33,16 @@ MOST_SHOWN = 2
 
 
 def verdict_table(report: Report) -> Table:
-    """Return a table with a row for each claim as printed and one for each reading as checked, with what its verdict rests on."""
+    """Return a table with a row for each claim as stated and one for each reading as checked, with what its verdict rests on."""
     table = Table(box=box.SIMPLE_HEAD, padding=(0, 1), pad_edge=False)
     table.add_column("claim / reading", overflow="fold", max_width=32)
     table.add_column("verdict", no_wrap=True)
     table.add_column("statement / hypotheses / evidence", overflow="fold")
     table.add_column("certificates", no_wrap=True)
-    table.add_column("seconds", no_wrap=True, justify="right")
+    table.add_column("own s", no_wrap=True, justify="right")
     for claim in report.claims:
-        printed = Text.assemble((claim.claim.statement, "bold"), (f"  ({claim.claim.reference}) {_standing(claim)}", "dim"))
-        table.add_row(Text(claim.claim.id, style="bold"), verdict_text(claim.verdict, claim.expected, "\n"), printed, "", "")
+        stated = Text.assemble((claim.claim.statement, "bold"), (f"  ({claim.claim.reference}) {_standing(claim)}", "dim"))
+        table.add_row(Text(claim.claim.id, style="bold"), verdict_text(claim.verdict, claim.expected, "\n"), stated, "", "")
         for result in claim.readings:
             reading, outcome = result.reading, result.outcome
             words = Text.assemble(
@@ -52,7 +52,7 @@ def verdict_table(report: Report) -> Table:
                 (f"\nfor all systems: {reading.missing}" if reading.missing else "", "dim italic"),
                 ("".join(f"\nattacked by {line}" for line in attack_lines(result.attacks)), "dim italic"),
             )
-            name = f"  {reading.id}{' (repair)' if reading.repair else ''}"
+            name = f"  {reading.id}{' (ours)' if reading.repair else ''}"
             verdict = verdict_text(outcome.verdict, result.expected, "\n")
             table.add_row(name, verdict, words, hashes(outcome.certificates, outcome.accepted), f"{result.seconds:.1f}")
         table.add_section()
@@ -91,10 +91,10 @@ def attack_lines(attacks: Sequence[Attacked]) -> list[str]:
 
 
 def _standing(claim: ClaimResult) -> str:
-    """Return how many of the readings as printed are not refuted."""
-    printed = [result for result in claim.readings if not result.reading.repair]
-    standing = sum(result.outcome.verdict not in (Verdict.REFUTED, Verdict.ERROR) for result in printed)
-    return f"As printed: {standing} of {len(printed)} {'parts' if claim.claim.in_parts else 'readings'} stand."
+    """Return how many of the readings of its words are not refuted."""
+    stated = [result for result in claim.readings if not result.reading.repair]
+    standing = sum(result.outcome.verdict not in (Verdict.REFUTED, Verdict.ERROR) for result in stated)
+    return f"As stated: {standing} of {len(stated)} {'parts' if claim.claim.in_parts else 'readings'} stand."
 
 
 def hashes(certificates: Sequence[Certificate], accepted: int) -> str:

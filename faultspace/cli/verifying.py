@@ -23,7 +23,7 @@ from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, NOT_AS_EXPECTED
 from .reading_files import prepare_folder
 from .verdict_page import print_page
-from .verdict_summary import print_differences, print_lines, print_summary
+from .verdict_summary import print_differences, print_lines, print_machine, print_summary
 from .verdict_tables import hypotheses_table, verdict_table
 
 WIDE = 100  # below it the columns of the long tables hold a word a line
@@ -97,7 +97,7 @@ def _print(report: Report, *, pages: bool, verbose: bool) -> None:
     if report.corpus and (verbose or pages):
         paragraph(console, report.corpus, "systems: ")
     if pages:
-        paragraph(console, report.machine, "machine-checked: ")
+        print_machine(console, report)
     else:
         print_lines(console, report)
     print_summary(console, report)

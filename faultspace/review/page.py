@@ -11,11 +11,13 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from ..base.errors import InvalidInput
+from ..base.others_text import policy
 
 if TYPE_CHECKING:
     from .records import Records
 
 PACKAGE = "faultspace.review"
+BEGIN = 'document.documentElement.classList.add("js");'  # before anything is shown
 EXTRA = "the page needs Jinja2: pip install 'faultspace[report]'"
 
 
@@ -45,12 +47,15 @@ def render(records: Records) -> str:
         loader=library.PackageLoader(PACKAGE), autoescape=True, undefined=library.StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
     environment.filters |= {"three": three, "percent": percent, "words_linked": words_linked}
+    style, script, begin = _file("page.css"), _file("page.js"), BEGIN
     environment.globals |= {
         "matrix": mathml.matrix,
         "expression": mathml.expression,
         "pictures": pictures,
-        "style": Markup(_file("page.css")),
-        "script": Markup(_file("page.js")),
+        "policy": Markup(policy([style], [begin, script])),
+        "style": Markup(style),
+        "begin": Markup(begin),
+        "script": Markup(script),
     }
     return str(environment.get_template("page.html").render(page=view(records)))
 

@@ -14,6 +14,7 @@ import tempfile
 from pathlib import Path
 
 from ..base.errors import InvalidData, InvalidInput, quote_path
+from ..base.writing import whole_file
 
 ELSEWHERE = "leave --pdf out, and print the page in any browser"
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "microsoft-edge")
@@ -52,7 +53,8 @@ def print_page(page: Path, pdf: Path) -> None:
                 f"{quote_path(str(pdf))}: {program} did not print the page ({said or f'it ended with code {done.returncode}'}); {ELSEWHERE}"
             )
         packed(printed)
-        shutil.move(printed, pdf)
+        with whole_file(pdf) as stream:
+            stream.write(printed.read_bytes())
 
 
 def packed(pdf: Path) -> None:

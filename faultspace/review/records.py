@@ -24,7 +24,7 @@ LITERATURE = "literature.json"
 AGAIN = "write the folder anew: faultspace verify --out DIR"
 NEEDED = {
     "": ("effort", "corpus", "rocq", "seconds", "versions", "claims", "hypotheses"),
-    "claims": ("id", "reference", "as_printed", "uses", "verdict", "expected", "rests_on", "readings"),
+    "claims": ("id", "reference", "whose", "as_stated", "uses", "verdict", "expected", "rests_on", "readings"),
     "readings": (
         *("reading", "ours", "statement", "hypotheses", "verdict", "expected", "theorems", "locks", "missing_for_a_proof", "evidence"),
         *("certificates_accepted", "certificates", "attacks", "seconds"),

@@ -12,14 +12,14 @@
     diagnosing/  what is probably wrong with an answer that failed
     reports/     failures folded, JUnit, badges, versions
     upstream/    checks as data and as scripts, for those who do not have this
-    reproducers/ a script for each finding, made with FINDINGS.md
+    reproducers/ a script for one finding of each cause
 
     checks/      what is asked, one file a topic
     vectors/     exact systems, data, answers and derived bounds, as JSON that any language can read
     making/      how the vectors are computed
     subjects/    who is asked, and where it runs
     peers/       published packages as implementations
-    scoreboard/  all that is installed against all checks; README's table and FINDINGS.md
+    scoreboard/  all that is installed against all checks: board.json, README's table, FINDINGS.md, reproducers
 
 Comparisons are of what no state basis changes, in exact arithmetic where the answer allows.
 """

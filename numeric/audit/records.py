@@ -8,8 +8,9 @@ CheckResult   a check's outcome: verdict (a Status), the worst measurement, in w
 Demand        must-hold, must-refuse (an answer is the failure) or free (told, never failed)
 NEARNESS      how many bounds off is near
 Refused       the implementation declined to answer; Broken: it crashed, hung or answered what is no answer
+or_refused    what compares an answer, where a refusal is as right
 perform       runs one check; never raises for what the implementation does
-broken        the result of a check during which the implementation broke
+inside        what is measured in the process of the function, which may be another one
 grouped       results by slug and function
 message       a failure in words, with the line that shows it again
 plain         nested numbers as JSON has them
@@ -19,7 +20,7 @@ first_difference   where in a record the answer begins to differ
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields
 from enum import StrEnum
 from fractions import Fraction
@@ -64,7 +65,7 @@ class Severity(StrEnum):
 
 
 class Status(StrEnum):
-    """A check has this status; FAIL is beyond the bound, or an answer where none can be, and REFUSED is none where one is due.
+    """A check has this status; FAIL is beyond the bound, or an answer where a refusal is due, and REFUSED is none where one is due.
 
     NEAR is beyond a bound of rounding by less than NEARNESS: it is told and counted apart, and fails nothing. EXPECTED is whatever is not
     right where somebody said so before, UNEXPECTED what is right all the same.
@@ -217,7 +218,7 @@ def perform(check: Check, function: Function) -> CheckResult:
         with np.errstate(all="ignore"):  # around all, so that what the function itself sets is seen, and undone
             measured = list(check.measure(function))
         if check.kind is Demand.MUST_REFUSE:
-            verdict, detail = Status.FAIL, "answered where no answer can be right"
+            verdict, detail = Status.FAIL, "answered where a refusal is due"
         else:
             worst = max(measured, key=lambda one: one.ratio)
             verdict = Status.PASS if worst.ratio <= 1 else Status.NEAR if worst.ratio < check.nearness else Status.FAIL
@@ -235,9 +236,28 @@ def perform(check: Check, function: Function) -> CheckResult:
     return _result(check, verdict, worst, detail, time.perf_counter() - begun)
 
 
-def broken(check: Check, failure: Exception, seconds: float) -> CheckResult:
-    """The status is BROKEN, in the words of the failure."""
-    return _result(check, Status.BROKEN, None, str(failure), seconds)
+def or_refused(compare: Callable[[Function], Iterable[Measurement]]) -> Callable[[Function], Iterator[Measurement]]:
+    """Return the measurement `compare` for a question that may be refused as well: to refuse it is to be off by nothing."""
+
+    def measure(function: Function) -> Iterator[Measurement]:
+        try:
+            yield from compare(function)
+        except Refused:
+            yield Measurement("refused, as it may be", 0.0, 0.0)
+
+    return measure
+
+
+def inside(
+    measure: Callable[[Any, Function], Iterable[Measurement]], arguments: tuple[Any, ...], function: Function
+) -> Iterable[Measurement]:
+    """Return what `measure(arguments, function)` measures of a call and of the process around it, made in that process.
+
+    `measure` is a function of a module; it has the arguments alone, and no truth.
+    """
+    elsewhere = getattr(function, "inside", None)
+    found: Iterable[Measurement] = measure(arguments, function) if elsewhere is None else elsewhere(measure, arguments)
+    return found
 
 
 def grouped(results: Iterable[CheckResult]) -> list[list[CheckResult]]:

@@ -59,10 +59,10 @@ def audit(
 
     What has a name runs in a process of its own, where a check (of a program: an answer) may take `seconds` and hold `gibibytes`, and which
     sees of the environment what any program needs (PATH, HOME, the language) and the variables named in `environment`, "*" for all; an
-    object runs in this process, and nothing limits it. What the functions do, this never raises. Failures are explained where a
-    computation shows what is wrong, in at most as much time as the checks took. The Audit is a sequence of results, one
-    a check: `verdict`, and what was `got` beside the `bound`; it has `failed`, `summary()` and `to_json()`. Source: the checks take their
-    truth from [G25] and the claims of this library.
+    object runs in this process, where nothing limits it and it could look at the answers. What the functions do, this never raises.
+    Failures are explained where a computation shows what is wrong, in at most as much time as the checks took. The Audit is a sequence of
+    results, one a check: `verdict`, and what was `got` beside the `bound`; it has `failed`, `summary()` and `to_json()`. Source: the checks
+    take their truth from [G25] and the claims of this library.
 
     Raises InvalidData for an implementation that cannot be reached, has none of the functions or one that takes other arguments, for
     names of checks that do not exist, for a `seed` that is no natural number, for `seconds` or `gibibytes` that are not positive, and for
@@ -87,7 +87,7 @@ def audit(
     environment = [environment] if isinstance(environment, str) else environment
     if not isinstance(environment, Collection) or not all(isinstance(one, str) for one in environment):
         raise InvalidData(f"environment: got {shorten(environment)}, expected a list of names of variables")
-    with opened(adapter, command, peer, Limits(seconds, int(gibibytes * 2**30), tuple(environment)), seed) as subject:
+    with opened(adapter, command, peer, Limits(seconds, int(gibibytes * 2**30), tuple(environment))) as subject:
         todo = _todo(subject, only, expected, seed, quick)
         heard, results = on_progress or silent, []
         for done, check in enumerate(todo):

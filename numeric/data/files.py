@@ -38,6 +38,7 @@ from numpy.typing import NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData, InvalidInput, in_file, quote_path, shorten
+from ...base.others_text import printable
 from ...base.progress import Progress, silent
 from ...base.regular_files import open_regular
 from ...base.sheets import counted
@@ -205,7 +206,7 @@ def _finite(labels: Sequence[str], rows: Array, first: int) -> None:
 
 
 def _text(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -> _Opened:
-    table = TextTable.opened(path)
+    table, names = TextTable.opened(path), list(map(printable, names))
     wanted: list[list[int]] = []
     for name in names:
         if table.names is not None:

@@ -3,7 +3,8 @@
 hdf5_arrays    the numeric variables by name, each read when it is asked for
 
 MATLAB writes arrays in its own order, columns first, so that HDF5 has their axes the other way around: they are turned back here. What is
-no array of numbers (structures, cells, text) is left out.
+no array of numbers (structures, cells, text) is left out. HDF5 can have its numbers in other files of whoever reads it, by links, virtual
+datasets and external storage: a file that does so is refused, and none of these is opened.
 """
 
 from __future__ import annotations
@@ -18,10 +19,11 @@ import numpy as np
 import psutil
 from numpy.typing import NDArray
 
-from ...base.errors import InvalidInput
+from ...base.errors import InvalidInput, shorten
 from .damage import from_library, unpacks_to
 
 KINDS = "fiub"
+HARD = 0  # the type of a link to what is in the file itself: H5L_TYPE_HARD
 EXPECTED = "a MAT file as MATLAB saves it"
 
 
@@ -30,6 +32,10 @@ class _Variables(Mapping[str, Any]):
 
     def __init__(self, file: Any) -> None:
         self._file = file
+        with from_library("HDF5", EXPECTED):
+            elsewhere = next((name for name in file if _leads_away(file, name)), None)
+        if elsewhere is not None:
+            raise InvalidInput(f"got {shorten(elsewhere)}, whose numbers may be in another file, expected {EXPECTED}")
         with from_library("HDF5", EXPECTED):
             self._names = [name for name, there in file.items() if getattr(there, "dtype", None) is not None and there.dtype.kind in KINDS]
 
@@ -49,6 +55,14 @@ class _Variables(Mapping[str, Any]):
 
     def __len__(self) -> int:
         return len(self._names)
+
+
+def _leads_away(file: Any, name: str) -> bool:
+    """Say whether what has this name is a link, which may lead through another file, or a dataset that is stored in others."""
+    if file.id.links.get_info(name.encode("utf-8", "surrogateescape")).type != HARD:
+        return True
+    there = file[name]
+    return bool(getattr(there, "is_virtual", False) or getattr(there, "external", None))
 
 
 def hdf5_arrays(path: Path, stack: ExitStack) -> Mapping[str, Any]:

@@ -31,6 +31,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidInput
+from ...base.others_text import printable
 from ...base.progress import Progress
 from ...base.sheets import Shown, counted
 from .clocks import Clock
@@ -331,7 +332,8 @@ class RecordWriter:
     ) -> Record:
         """Make the record of the rows that have been taken; `lengths` are the samples of its experiments where there are several."""
         offset = np.zeros(self.store.width)
-        return Record(self.store, tuple(outputs), tuple(inputs), format, self.known(), offset, single, clock=clock, lengths=lengths)
+        y_names, u_names = (tuple(map(printable, names)) for names in (outputs, inputs))
+        return Record(self.store, y_names, u_names, format, self.known(), offset, single, clock=clock, lengths=lengths)
 
 
 def side_by_side(records: Sequence[Record]) -> Record:

@@ -1,120 +1,157 @@
 """This reads samples as they come: lines of a text table from standard input or from a file that grows.
 
-followed       the lines of a growing file, or RESTARTED where it was cut short or replaced
-TableStream    samples (k,) from such lines, the chosen columns of each; NaN where a field is empty
+TableStream    samples (k,) from such lines, the chosen columns of each; NaN where a field is empty, and throughout where a line is no row
+RESTARTED      in place of a sample: some may lack before the next one
+seldom         whether the count of what happens again and again is one to be told: 1, 2, 4, 8, ..
 
-A line counts when its end has come. The columns are found by the first two lines, as in a file (`text_tables`).
+A line that has all chosen names in it is a line of names wherever it comes, for a logger that is started again writes it again; with the
+first row behind it, it shows the table, as in a file (`text_tables`). Where columns are chosen by number the first two lines do.
 """
 
 from __future__ import annotations
 
-import os
 import re
-import time
-from collections.abc import Iterable, Iterator, Sequence
-from itertools import chain
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from ...base.arrays import Array
 from ...base.errors import InvalidInput, in_file, quote_path, shorten
-from .text_tables import TextTable
+from ...base.others_text import printable
+from .following import LONGEST_LINE, Break
+from .text_tables import SEPARATORS, TextTable, fields_of, number_in
 
-RESTARTED = None  # in place of a line: what follows is a table of its own
-PAUSE = 0.2  # seconds between looks at a file that has not grown
-CHUNK = 1 << 20
-LONGEST_LINE = 1 << 22
+RESTARTED = None
 _COLUMN = re.compile(r"^.+\[(?:\s*:\s*,)?\s*(\d+)\s*\]$")
 
 
-def followed(path: str, *, idle: float | None = None) -> Iterator[bytes | None]:
-    """Yield the lines of the file at `path` from its beginning, and those that are added, until nothing has come for `idle` seconds (None:
-    for ever). Raises InvalidInput where the file cannot be read."""
-    waited, rest, place, identity = 0.0, b"", 0, None
-    while idle is None or waited <= idle:
-        try:
-            with open(path, "rb") as stream:
-                state = os.fstat(stream.fileno())
-                if identity is not None and (identity != (state.st_dev, state.st_ino) or state.st_size < place):
-                    rest, place = b"", 0
-                    yield RESTARTED
-                identity = (state.st_dev, state.st_ino)
-                stream.seek(place)
-                came = stream.read(CHUNK)
-        except OSError as error:
-            reason = (error.strerror or str(error)).lower()
-            raise InvalidInput(f"{quote_path(path)}: cannot be read ({reason}), expected a text table that grows") from None
-        if not came:
-            time.sleep(PAUSE)
-            waited += PAUSE
-            continue
-        waited, place = 0.0, place + len(came)
-        *lines, rest = (rest + came).split(b"\n")
-        if len(rest) > LONGEST_LINE:
-            raise InvalidInput(f"{quote_path(path)}: a line is longer than {LONGEST_LINE} characters, expected a line a sample")
-        yield from lines
+def seldom(count: int) -> bool:
+    """Say whether the count is a power of two."""
+    return count & (count - 1) == 0
 
 
 class TableStream:
     """The stream gives the samples in `lines`, of the columns with these names; `name` says in messages where they come from.
 
     A name of the form data[:,j] or data[j] is column j of a table without a line of names. Iterating gives an array (k,) a sample, and
-    RESTARTED where `lines` says so. Raises InvalidInput for lines that are no table, columns that are not there, and fields that are no
-    numbers.
+    RESTARTED where a Break of `lines` says that some may lack. The first `after` lines only show the table; `head` is its line of names,
+    where an earlier stream has read it. A line that is no row of it, or
+    no text, is a missing sample: `bad` counts them, and `heard` is told of them. Raises InvalidInput where the first lines are no table
+    with these columns.
     """
 
-    def __init__(self, lines: Iterable[bytes | None], names: Sequence[str], name: str) -> None:
-        self._lines, self._names, self._name = iter(lines), list(names), name
-        self._number = 0
+    def __init__(
+        self,
+        lines: Iterable[bytes | Break],
+        names: Sequence[str],
+        name: str,
+        *,
+        after: int = 0,
+        head: str = "",
+        heard: Callable[[str], None] = lambda _: None,
+    ) -> None:
+        self._lines, self._names, self._name, self._after, self._heard = lines, [*map(printable, names)], name, after, heard
+        self._number = 0  # of the line, from 1
+        self._fresh = False  # whether it is the first of another table
+        self._begun = False  # whether there has been a table
+        self._table: TextTable | None = None
+        self._columns: list[int] = []
+        self.head = head
+        self._head = (0, head) if head else None  # a line that shows the table together with the next row
+        self._pointed = False  # whether a number had a decimal point
+        self.bad = 0
 
     def __iter__(self) -> Iterator[Array | None]:
-        while True:
-            beginning, ended = self._beginning()
-            if beginning:
-                with in_file(self._name):
-                    table = TextTable.of_lines(Path(self._name), beginning)
-                    columns = self._columns(table)
-                first = [pair for pair in beginning if pair[0] > table.skipped]
-                for pair in chain(first, () if ended else self._numbered()):
-                    if pair is RESTARTED:
-                        break
-                    with in_file(self._name):
-                        row = table.row(*pair, columns)
-                    yield np.array(row, dtype=np.float64)
-                else:
-                    return
-            elif ended:
-                return
-            yield RESTARTED
-
-    def _beginning(self) -> tuple[list[tuple[int, str]], bool]:
-        """Return the first two lines, which show the columns, and whether nothing comes after them."""
-        found: list[tuple[int, str]] = []
-        for pair in self._numbered():
-            if pair is RESTARTED:
-                return [], False
-            found.append(pair)
-            if len(found) == 2:
-                return found, False
-        return found, True
-
-    def _numbered(self) -> Iterator[tuple[int, str] | None]:
         for line in self._lines:
-            if line is RESTARTED:
-                self._number = 0
-                yield RESTARTED
+            if isinstance(line, Break):
+                self._number, self._after, self._head, self._fresh = 0, 0, None, True
+                if line is Break.begun_anew:
+                    yield RESTARTED
                 continue
             self._number += 1
-            try:
-                text = line.decode("utf-8-sig").rstrip("\r\n")
-            except UnicodeDecodeError as error:
-                got = f"got byte {error.object[error.start]:#04x}, expected text in UTF-8"
-                raise InvalidInput(f"{quote_path(self._name)}: line {self._number}: {got}") from None
-            if text.strip() and not text.lstrip().startswith("#"):
-                yield self._number, text
+            passed = self._number <= self._after and self._table is not None and self._names[0].encode() not in line  # no names, either
+            if passed or not line.strip() or line.lstrip().startswith(b"#"):
+                continue
+            samples = self._samples(line)
+            self._fresh = False
+            if self._number > self._after:
+                yield from map(np.array, samples)
+        if not self._begun and self._head is not None:
+            with in_file(self._name):
+                yield from map(np.array, self._opened([self._head]))
 
-    def _columns(self, table: TextTable) -> list[int]:
+    def _samples(self, line: bytes) -> list[list[float]]:
+        """Return the samples that this line gives: one unless it shows what the columns are."""
+        try:
+            return self._read(self._text(line))
+        except InvalidInput as error:
+            if not (self._begun or (self._head is not None and self._names_all(self._head[1]))):
+                raise InvalidInput(f"{quote_path(self._name)}: {error}") from None
+            if self._number > self._after:
+                self.bad += 1
+                if seldom(self.bad):
+                    self._heard(f"{quote_path(self._name)}: {error}; it counts as a missing sample, {self.bad} so far")
+            return [[float("nan")] * len(self._names)]
+
+    def _text(self, line: bytes) -> str:
+        if len(line) >= LONGEST_LINE:
+            raise InvalidInput(f"line {self._number} is longer than {LONGEST_LINE} bytes, expected a line a sample")
+        if b"\0" in line:
+            raise InvalidInput(f"line {self._number} holds a zero byte, expected text")
+        try:
+            return line.decode("utf-8-sig").rstrip("\r\n")
+        except UnicodeDecodeError as error:
+            raise InvalidInput(f"line {self._number}: got byte {error.object[error.start]:#04x}, expected text in UTF-8") from None
+
+    def _read(self, text: str) -> list[list[float]]:
+        """Return the samples that the text of a line gives. Raises InvalidInput for one that belongs to no table with the columns."""
+        refusal = InvalidInput(f"line {self._number} stands in a table without the chosen columns")
+        if self._table is not None:
+            try:
+                return [self._row(self._table, text)]
+            except InvalidInput as error:
+                refusal = InvalidInput(str(error).rpartition(": ")[0])  # what to do about it is said of files
+        if self._names_all(text):
+            self._head, self._table = (self._number, text), None
+            return []
+        if self._head is not None:
+            if self._names_all(self._head[1]) and not _has_number(text):
+                self._head = self._head if self._head[0] else (self._number, text)  # units, or names that are none of ours
+                return []
+            return self._opened([self._head, (self._number, text)])
+        if not self._begun:
+            self._head = (self._number, text)
+            return []
+        if self._fresh and not _has_number(text):  # other names, whose rows may be as wide as those of the table
+            self._table, self.head = None, ""
+        raise refusal
+
+    def _row(self, table: TextTable, text: str) -> list[float]:
+        """Return the chosen numbers of a row. Where no number before had a decimal point, the first that has a comma shows the decimals."""
+        try:
+            row = table.row(self._number, text, self._columns)
+        except InvalidInput:
+            if self._pointed or table.separator == "," or table.decimal == ",":
+                raise
+            other = replace(table, decimal=",")
+            row = other.row(self._number, text, self._columns)
+            self._table = other
+        self._pointed = self._pointed or "." in text
+        return row
+
+    def _opened(self, beginning: list[tuple[int, str]]) -> list[list[float]]:
+        """Take the table that these lines show, and return the samples among them."""
+        table = TextTable.of_lines(Path(self._name), beginning)
+        self._columns = self._places(table)
+        self._table, self._begun, self.head, self._head = table, True, beginning[0][1] if table.names else "", None
+        return [self._row(table, text) for number, text in beginning if number > table.skipped]
+
+    def _names_all(self, text: str) -> bool:
+        return any(set(self._names) <= set(map(printable, fields_of(text, separator))) for separator in SEPARATORS)
+
+    def _places(self, table: TextTable) -> list[int]:
         found = []
         for name in self._names:
             match = _COLUMN.match(name)
@@ -126,3 +163,7 @@ class TableStream:
                 there = ", ".join(map(shorten, table.names)) if table.names else f"{table.width} columns without names, data[0] the first"
                 raise InvalidInput(f"there is no column {shorten(name)}, expected one of: {there}")
         return found
+
+
+def _has_number(text: str) -> bool:
+    return any(number_in(field) is not None for separator in SEPARATORS for field in fields_of(text, separator))

@@ -1,6 +1,7 @@
 """This reads tables in text files: which character separates the columns, whether a line names them, and their values, piece by piece.
 
 TextTable          an opened table: separator, names, width, first line of values; `pieces` reads chosen columns, `row` those of a line
+fields_of          the fields of a line; number_in: the number in one, None where there is none
 SEPARATORS         the separators that are tried, with the names they have in messages
 DECIMALS           what stands before the decimals
 PIECE              lines parsed at once
@@ -32,6 +33,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.errors import InvalidInput, shorten
+from ...base.others_text import printable
 from ...base.sheets import counted
 
 DECIMALS = {".": "a point", ",": "a comma"}
@@ -73,17 +75,17 @@ class TextTable:
         if not beginning:
             raise InvalidInput("got no line of a table, expected a line of names and a line a sample")
         lines = [line for _, line in beginning]
-        if len(lines) == 1 and all(_number(field) is None for separator in SEPARATORS for field in _fields(lines[0], separator)):
+        if len(lines) == 1 and all(number_in(field) is None for separator in SEPARATORS for field in fields_of(lines[0], separator)):
             raise InvalidInput("got a line of names and no samples, expected a record of many")
         separator = _separator(lines)
         _quotes_closed(beginning, separator)
-        fields = _fields(lines[0], separator)
+        fields = fields_of(lines[0], separator)
         decimal = _decimal(lines[1:] or lines, separator)
-        named = any(_number(field, decimal) is None for field in fields)
-        names = tuple(map(_windows, fields)) if named else None
-        if not named:
+        named = any(number_in(field, decimal) is None for field in fields)
+        names = tuple(printable(_windows(field)) for field in fields) if named else None
+        if names is None:
             return cls(path, separator, names, len(fields), beginning[0][0] - 1, None, decimal)
-        _names_once(fields)
+        _names_once(names)
         units = _units(lines, separator, decimal)
         return cls(path, separator, names, len(fields), beginning[0 if units is None else 1][0], units, decimal)
 
@@ -93,7 +95,8 @@ class TextTable:
             parts = [self._parsed(piece, [place])[:, 0] for piece in self._pieces()]
             return np.concatenate(parts) if parts else np.zeros(0)
         except InvalidInput:
-            return [fields[place] for piece in self._pieces() for _, line in piece if len(fields := _fields(line, self.separator)) > place]
+            rows = (fields_of(line, self.separator) for piece in self._pieces() for _, line in piece)
+            return [fields[place] for fields in rows if len(fields) > place]
 
     def _pieces(self) -> Iterator[list[tuple[int, str]]]:
         """Yield the numbered lines of values, PIECE at a time."""
@@ -137,7 +140,7 @@ class TextTable:
 
     def row(self, number: int, line: str, columns: Sequence[int]) -> list[float]:
         """Parse one line, slowly, so that the complaint names the line and the column."""
-        fields = _fields(line, self.separator)
+        fields = fields_of(line, self.separator)
         if len(fields) != self.width:
             raise InvalidInput(
                 f"line {number} has {counted(len(fields), 'field')} separated by {self.separator_name}, expected {self.width} as in the "
@@ -146,11 +149,11 @@ class TextTable:
             )
         row = []
         for column in columns:
-            value = float("nan") if fields[column] == "" else _number(fields[column], self.decimal)
+            value = float("nan") if fields[column] == "" else number_in(fields[column], self.decimal)
             if value is None:
                 name = shorten(self.names[column]) if self.names else str(column)
                 other = "," if self.decimal == "." else "."
-                decimals = _number(fields[column], other) is not None
+                decimals = number_in(fields[column], other) is not None
                 advice = f"write decimals with {DECIMALS[self.decimal]}" if decimals else "mend it, or cut the record before it"
                 raise InvalidInput(f"line {number}, column {name}: got {shorten(fields[column])}, expected a number: {advice}")
             row.append(value)
@@ -178,19 +181,19 @@ def _decimal(lines: Sequence[str], separator: str) -> str:
     nothing."""
     if separator == ",":
         return "."
-    fields = [field for line in lines for field in _fields(line, separator)]
-    if any("." in field and _number(field) is not None for field in fields):
+    fields = [field for line in lines for field in fields_of(line, separator)]
+    if any("." in field and number_in(field) is not None for field in fields):
         return "."
-    return "," if any("," in field and _number(field, ",") is not None for field in fields) else "."
+    return "," if any("," in field and number_in(field, ",") is not None for field in fields) else "."
 
 
 def _units(lines: Sequence[str], separator: str, decimal: str) -> tuple[str, ...] | None:
     """Return the fields of the second line where they are no numbers in any column that has numbers in the third, None otherwise."""
     if len(lines) < 3:
         return None
-    second, third = (_fields(line, separator) for line in lines[1:3])
-    numbers = [place for place, field in enumerate(third) if _number(field, decimal) is not None]
-    words = numbers and len(second) == len(third) and all(_number(second[place], decimal) is None for place in numbers)
+    second, third = (fields_of(line, separator) for line in lines[1:3])
+    numbers = [place for place, field in enumerate(third) if number_in(field, decimal) is not None]
+    words = numbers and len(second) == len(third) and all(number_in(second[place], decimal) is None for place in numbers)
     return tuple(map(_windows, second)) if words and any(second[place] for place in numbers) else None
 
 
@@ -221,7 +224,7 @@ def _separator(lines: Sequence[str]) -> str:
     """Return the separator that makes a table of the lines, most columns first. Raises InvalidInput where none does."""
     tables = {}
     for separator in SEPARATORS:
-        widths = {len(_fields(line, separator)) for line in lines}
+        widths = {len(fields_of(line, separator)) for line in lines}
         if len(widths) == 1 and (width := widths.pop()) > 1:
             tables[separator] = width
     # Values must be numbers: a comma inside names or a decimal comma makes no column.
@@ -231,11 +234,11 @@ def _separator(lines: Sequence[str]) -> str:
             if separator == "," and (";" in sound or "\t" in sound):
                 continue  # 1,5;2,5: the semicolon separates, the comma is a decimal comma
             return separator
-    if all(_number(line) is not None for line in lines[1:] or lines):
+    if all(number_in(line) is not None for line in lines[1:] or lines):
         return ","  # a single column
     tried = ", ".join(SEPARATORS.values())
     for separator, name in SEPARATORS.items():
-        widths_in_order = [len(_fields(line, separator)) for line in lines]
+        widths_in_order = [len(fields_of(line, separator)) for line in lines]
         if separator != " " and len(set(widths_in_order)) > 1 and min(widths_in_order[:2]) > 1:
             odd = next(i for i, width in enumerate(widths_in_order) if width != widths_in_order[0])
             raise InvalidInput(
@@ -250,12 +253,13 @@ def _separator(lines: Sequence[str]) -> str:
 
 def _numeric_share(lines: Sequence[str], separator: str) -> float:
     """Return the share of fields that are numbers, a decimal comma allowed: such a table is told apart and then complained about."""
-    fields = [field for line in lines for field in _fields(line, separator)]
-    good = sum(_number(field.replace(",", ".")) is not None for field in fields)
+    fields = [field for line in lines for field in fields_of(line, separator)]
+    good = sum(number_in(field.replace(",", ".")) is not None for field in fields)
     return good / len(fields)
 
 
-def _fields(line: str, separator: str) -> list[str]:
+def fields_of(line: str, separator: str) -> list[str]:
+    """Return the fields of a line, without the blanks around them."""
     if separator == " ":
         return line.replace('"', "").split()
     try:
@@ -282,14 +286,14 @@ def _quotes_closed(numbered: Sequence[tuple[int, str]], separator: str) -> None:
             )
 
 
-def _number(field: str, decimal: str = ".") -> float | None:
+def number_in(field: str, decimal: str = ".") -> float | None:
     """Return the number in a field, None where there is none, or one of other decimals."""
     if decimal == ",":
         if "." in field:
             return None
         field = field.replace(",", ".")
     try:
-        return None if "_" in field else float(field)
+        return None if "_" in field or not field.isascii() else float(field)
     except ValueError:
         return None
 

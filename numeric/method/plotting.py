@@ -32,6 +32,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.others_text import as_label
 from ...base.sheets import counted
 from ..data.records import SampleStore
 from ..data.validation import signal
@@ -373,7 +374,7 @@ def plot_angles(rows: Sequence[tuple[str, float, float | None, str]], *, ax: Any
             ax.plot(np.degrees([bound, bound]), [place - 0.42, place + 0.42], color="black", linewidth=2)
         ax.annotate(answer, (np.degrees(reach), place), xytext=(6, 0), textcoords="offset points", va="center", fontsize=9)
     ax.plot([], [], color="black", linewidth=2, label="what chance stays below (95 %), were it the cause")
-    ax.set_yticks(range(len(rows)), [name for name, *_ in rows])
+    ax.set_yticks(range(len(rows)), [as_label(name) for name, *_ in rows])
     ax.set_ylim(len(rows) - 0.4, -0.6)
     ax.set_xscale("log")
     ax.set_xlim(left, 90 * (90 / left) ** 0.2)  # with room for the answers
@@ -395,7 +396,7 @@ def plot_chances(rows: Sequence[tuple[str, float, str]], limits: tuple[float, fl
     excluded, consistent = (-np.log10(limit) for limit in limits)
     ax.axvline(excluded, color="black", linewidth=1.5, label=f"below {limits[0]:g}: excluded")
     ax.axvline(consistent, color=GREY, linestyle="--", linewidth=1, label=f"from {limits[1]:g} on: consistent")
-    ax.set_yticks(range(len(rows)), [name for name, *_ in rows])
+    ax.set_yticks(range(len(rows)), [as_label(name) for name, *_ in rows])
     ax.set_ylim(len(rows) - 0.4, -0.6)
     reach = max([*sizes, 2 * excluded])
     ax.set_xlim(0, 1.2 * reach)  # with room for the answers
@@ -455,8 +456,7 @@ def _spectrum(values: ArrayLike, name: str) -> Array:
     sigma = np.asarray(values, dtype=np.float64).ravel()
     if not np.all(np.isfinite(sigma)) or np.any(sigma < 0):
         raise InvalidData(f"{name}: got negative or not finite ones; singular values are needed")
-    largest = float(sigma.max(initial=0.0)) or 1.0
-    return np.asarray(np.maximum(sigma, LOWEST * largest))
+    return np.asarray(np.maximum(sigma, LOWEST * (float(sigma.max(initial=0.0)) or 1.0)))
 
 
 def _whole_numbers(ax: Any) -> None:
@@ -476,10 +476,10 @@ def _stacked(ax: Any, names: Sequence[str], what: str, size: Array) -> list[floa
     """Return the heights of the channels, first on top, and the ticks that name them; a single channel keeps its own units."""
     drawn_channels = min(len(size), MOST_CHANNELS)
     if drawn_channels == 1:
-        ax.set_ylabel(names[0])
+        ax.set_ylabel(as_label(names[0]))
         return [0.0]
     levels = [2.3 * (drawn_channels - 1 - j) for j in range(drawn_channels)]
-    ax.set_yticks(levels, [f"{names[j]}\n±{size[j]:.2g}" for j in range(drawn_channels)])
+    ax.set_yticks(levels, [f"{as_label(names[j])}\n±{size[j]:.2g}" for j in range(drawn_channels)])
     ax.set_ylabel(f"{what}, each in its own scale")
     return levels
 

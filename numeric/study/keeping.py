@@ -18,18 +18,20 @@ import os
 import platform
 import shutil
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import scipy
-from filelock import FileLock, Timeout
+from filelock import Timeout
 
-from ...base.errors import InvalidInput, quote_path, shorten
+from ...base.errors import InvalidInput, in_file, quote_path, shorten
+from ...base.kept_lines import append, lock_of
+from ...base.regular_files import open_own
 from ...base.sheets import counted
-from ...base.writing import reason
+from ...base.writing import reason, write_text
 from .study_cases import Case, Errors, Estimate, Failed
 
 UNFINISHED, TEMPORARY = "unfinished-cases.jsonl", ".unfinished-monte-carlo"
@@ -74,23 +76,14 @@ class Kept:
     def add(self, plan: str, cases: Sequence[Case | Failed]) -> None:
         """Append these cases to the file, all of them or none. Raises InvalidInput where that cannot be."""
         lines = "".join(json.dumps({"plan": plan, ("case" if isinstance(one, Case) else "failed"): asdict(one)}) + "\n" for one in cases)
-        try:
-            if not self.path.exists():
-                self._begin()
-            _append(self.path, lines.encode())
-        except OSError as error:
-            raise InvalidInput(f"{quote_path(str(self.path))}: cannot be written ({reason(error)}): name a new folder") from None
+        if not os.path.lexists(self.path):  # there is never a file without its first line
+            write_text(self.path, json.dumps({"format": FORMAT} | asdict(self._settings)) + "\n")
+        append(self.path, lines.encode())
         self.cases.setdefault(plan, {}).update((one.index, one) for one in cases if isinstance(one, Case))
 
     def finish(self) -> None:
         """Remove the file: the cases stand elsewhere now."""
         self.path.unlink(missing_ok=True)
-
-    def _begin(self) -> None:
-        """Write the first line elsewhere, so that there is never a file without it."""
-        first = self.path.with_name(TEMPORARY)
-        first.write_text(json.dumps({"format": FORMAT} | asdict(self._settings)) + "\n", encoding="utf-8")
-        os.replace(first, self.path)
 
 
 @contextmanager
@@ -101,8 +94,9 @@ def keeping(folder: Path, settings: Settings, *, resume: bool) -> Iterator[Kept]
     Raises InvalidInput where another run has the folder; without `resume` where an unfinished run has cases there, and with it where these
     have other settings; and where a file of that name is not ours or cannot be read.
     """
-    lock, name = FileLock(folder / LOCK, timeout=0), quote_path(str(folder))
+    name = quote_path(str(folder))
     try:
+        lock = lock_of(folder / LOCK)
         lock.acquire()
     except Timeout:
         raise InvalidInput(f"{name}: another run works in this folder; wait for its end, or name another one") from None
@@ -125,27 +119,13 @@ def keeping(folder: Path, settings: Settings, *, resume: bool) -> Iterator[Kept]
         lock.release()
 
 
-def _append(path: Path, content: bytes) -> None:
-    """Append the content, or leave the file as it was."""
-    descriptor = os.open(path, os.O_WRONLY | os.O_APPEND)
-    try:
-        before, written = os.fstat(descriptor).st_size, 0
-        try:
-            while written < len(content):
-                written += os.write(descriptor, content[written:])
-        except BaseException:
-            with suppress(OSError):
-                os.ftruncate(descriptor, before)
-            raise
-    finally:
-        os.close(descriptor)
-
-
 def _read(path: Path, settings: Settings) -> dict[str, dict[int, Case]]:
     """Return the cases in the file, by plan and index, and cut off a last line that lacks its end. Raises InvalidInput."""
     name = quote_path(str(path))
     try:
-        with open(path, "rb") as stream:
+        with in_file(str(path)):
+            opened = open_own(path, "a file of cases")
+        with opened as stream:
             _same(stream.readline(), settings, name)
             cases: dict[str, dict[int, Case]] = {}
             whole = stream.tell()

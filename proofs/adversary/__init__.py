@@ -1,4 +1,4 @@
-"""An adversary for what holds without a general proof: searches that want a reading to be false, over continuous families.
+"""An adversary for what no theorem says: searches that want a statement to be false, over continuous families.
 
     attacks      the records: an Attack, the Witness that it looks for, the Trial that it ends in
     following    floats: starts, descents, changes of sign along paths between points

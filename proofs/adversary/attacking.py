@@ -7,19 +7,21 @@
     of_row         a row of the hypothesis table with its attacks
 
 A reading that was CERTIFIED is REFUTED where a counterexample is confirmed. It is in ERROR where what the file tells is not found again,
-and where the file has nothing on a statement that the catalogue attacks.
+and where it holds with nothing behind it but cases: neither a locked theorem, compiled on this machine or not, nor an attack on its words.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 from typing import TYPE_CHECKING
 
 from ...base.progress import Progress
 from ...base.sheets import counted
 from ...base.tasks import ordered, processes
 from ..evidence.attacks import Attacked
+from ..rocq.locks import kept
 from .catalogue import WITHOUT, attacks_on, catalogue
 from .results import AttackRecord, checked_again, run_attacks, stored
 
@@ -27,6 +29,7 @@ if TYPE_CHECKING:
     from ..verdict.verdicts import ReadingResult, Row
 
 SECONDS = 15.0
+COMMAND = "python -m faultspace.proofs.adversary --stale --out proofs/adversary/results.json"
 
 
 @dataclass(frozen=True)
@@ -80,11 +83,13 @@ def of_reading(result: ReadingResult, claim: str, attacks: Attacking) -> Reading
     """Returns the result with its attacks; its verdict gives way to a counterexample."""
     from ..verdict.verdicts import Verdict  # which needs the records of this folder
 
-    found = attacks.on(f"{claim}.{result.reading.id}")
+    target = f"{claim}.{result.reading.id}"
+    found = attacks.on(target)
     result = replace(result, attacks=found)
-    unproved = result.outcome.verdict == Verdict.CERTIFIED
-    words = _against(found) or (_absent(f"{claim}.{result.reading.id}", found) if unproved else None)
-    if words is None or result.outcome.verdict in (Verdict.REFUTED, Verdict.ERROR):
+    if result.outcome.verdict in (Verdict.REFUTED, Verdict.ERROR):
+        return result
+    words = _against(found) or _unfounded(target, result.reading.theorems, found)
+    if words is None:
         return result
     verdict = Verdict.REFUTED if any(one.refutes for one in found) else Verdict.ERROR
     return replace(result, outcome=replace(result.outcome, verdict=verdict, evidence=f"{words}; {result.outcome.evidence}"))
@@ -96,23 +101,33 @@ def of_row(row: Row, attacks: Attacking) -> Row:
 
     if len(row.dropped) != 1:
         return row
-    found = attacks.on(f"{WITHOUT}{row.ablation}: {row.dropped[0]}")
+    target = f"{WITHOUT}{row.ablation}: {row.dropped[0]}"
+    found = attacks.on(target)
     row = replace(row, attacks=found)
-    unproved = row.verdict == Verdict.CERTIFIED
-    words = _against(found) or (_absent(f"{WITHOUT}{row.ablation}: {row.dropped[0]}", found) if unproved else None)
-    if words is None or row.verdict in (Verdict.REFUTED, Verdict.ERROR):
+    if row.verdict in (Verdict.REFUTED, Verdict.ERROR):
+        return row
+    # What is implied by the other hypotheses is met by every case that meets them: there is nothing to attack.
+    words = _against(found) or (_unfounded(target, row.theorems, found) if row.implied is None else None)
+    if words is None:
         return row
     verdict = Verdict.REFUTED if any(one.refutes for one in found) else Verdict.ERROR
     return replace(row, verdict=verdict, evidence=f"{words}; {row.evidence}")
 
 
-def _absent(target: str, found: tuple[Attacked, ...]) -> str | None:
-    """Says that the file of results has nothing on a statement that we know how to attack: what was tried is then not known."""
-    known = len(tuple(attacks_on(target)))
-    if not known or found:
+@cache
+def _locked() -> frozenset[str]:
+    """Return the names of the theorems whose statements are locked."""
+    return frozenset(kept().theorems)
+
+
+def _unfounded(target: str, theorems: Sequence[str], found: tuple[Attacked, ...]) -> str | None:
+    """Say that nothing but cases stands behind what holds: no locked theorem, and no attack on its words as they are; None otherwise."""
+    proved = theorems and _locked().issuperset(theorems)
+    if proved or any(one.trouble is None for one in found):
         return None
-    command = "python -m faultspace.proofs.adversary --stale --out proofs/adversary/results.json"
-    return f"{counted(known, 'attack')} on this {'is' if known == 1 else 'are'} known, and the file of results has none; run {command}"
+    known = len(attacks_on(target))
+    way = f"run {COMMAND}" if known else "name a theorem in the ledger, or attack it in proofs/adversary"
+    return f"no locked theorem says it, and no attack on its words is on record ({counted(known, 'attack')} known); {way}"
 
 
 def _against(found: tuple[Attacked, ...]) -> str | None:

@@ -1,6 +1,6 @@
 """All attacks, by target.
 
-catalogue      every attack, once; then the sweeps
+catalogue      every attack, once
 attacks_on     those on one target
 statement_of   what the ledger says of a target: the words that an attack is made on
 """
@@ -14,21 +14,20 @@ from ..verdict.ledger import expected_without, load
 from .limit_catalogue import limit_attacks
 from .pair_attacks import pair_attacks
 from .structure_attacks import structure_attacks
-from .sweeps import Sweep, sweeps
 
 WITHOUT = "without "
 
 
 @cache
-def catalogue() -> tuple[Attack | Sweep, ...]:
+def catalogue() -> tuple[Attack, ...]:
     """Returns all attacks in the order of the files. Raises ValueError where two attacks have one id."""
-    found: tuple[Attack | Sweep, ...] = (*limit_attacks(), *pair_attacks(), *structure_attacks(), *sweeps())
+    found = (*limit_attacks(), *pair_attacks(), *structure_attacks())
     if len({attack.id for attack in found}) < len(found):
         raise ValueError("two attacks have the same id")
     return found
 
 
-def attacks_on(target: str) -> tuple[Attack | Sweep, ...]:
+def attacks_on(target: str) -> tuple[Attack, ...]:
     """Returns the attacks on this reading ("claim.reading") or row ("without EXPERIMENT: HYPOTHESIS")."""
     return tuple(attack for attack in catalogue() if attack.target == target)
 

@@ -4,8 +4,7 @@
     FloatLimits    L of both, O_s, and the coordinates M of PI-MOESP's in the columns of O_s
     float_limits   of a Drawn
     exact_experiment   the same experiment for the exact branch
-    determinant    of M, against Hadamard's bound; least_ratio: the least singular value against the largest
-    partial_covariance   det M against standard deviations
+    determinant    of M, against Hadamard's bound
     outside        the share of L that lies outside the range of O_s
     input_bias     of B and D by MOESP's regression
 
@@ -49,14 +48,13 @@ class Drawn:
 @dataclass(frozen=True)
 class FloatLimits:
     """past_inputs: s p x past nu; past_outputs: s p x past (nu + p); observability: s p x n; coordinates: n x past nu;
-    response = Cov(Yf, Uf) Cov(Uf, Uf)^-1: s p x s nu; deviations: standard ones of the n states, then of the nu inputs."""
+    response = Cov(Yf, Uf) Cov(Uf, Uf)^-1: s p x s nu."""
 
     past_inputs: Floats
     past_outputs: Floats
     observability: Floats
     coordinates: Floats
     response: Floats
-    deviations: Floats
 
 
 def exact_experiment(drawn: Drawn) -> Experiment:
@@ -96,14 +94,12 @@ def float_limits(drawn: Drawn) -> FloatLimits:
     inputs = windows(y, u, future, before) - gain @ windows(u, u, future, before)
     outputs = np.hstack([inputs, windows(y, y, future, before) - gain @ windows(u, y, future, before)])
     observability = np.vstack([C @ np.linalg.matrix_power(A, i) for i in range(s)])
-    deviations = np.sqrt(np.concatenate([np.diag(P)[:n], np.diag(uf_uf)[:nu]]))
     return FloatLimits(
         inputs,
         outputs,
         observability,
         np.linalg.lstsq(observability, inputs, rcond=None)[0],
         np.asarray(gain, dtype=np.float64),
-        deviations,
     )
 
 
@@ -111,20 +107,6 @@ def determinant(M: Floats) -> float:
     """Returns det M (n x n) against the product of the lengths of its rows, which bounds it: from -1 to 1."""
     lengths = float(np.prod(np.linalg.norm(M, axis=1)))
     return float(np.linalg.det(M)) / lengths if lengths > 0 else 0.0
-
-
-def partial_covariance(found: FloatLimits) -> float:
-    """Returns det M (n x n) against the standard deviations of the states and of the inputs: from -1 to 1 for one state."""
-    n, count = found.coordinates.shape
-    inputs = found.deviations[n:]
-    scale = float(np.prod(found.deviations[:n]) * np.prod([inputs[j % len(inputs)] for j in range(count)]))
-    return float(np.linalg.det(found.coordinates)) / scale if scale > 0 else 0.0
-
-
-def least_ratio(M: Floats) -> float:
-    """Returns the least singular value of M against its largest."""
-    values = np.linalg.svd(M, compute_uv=False)
-    return float(values[-1] / values[0]) if values[0] > 0 else 0.0
 
 
 def outside(L: Floats, observability: Floats) -> float:

@@ -127,12 +127,10 @@ def moving_average_family(n: int, s: int, past: int, order: int) -> Family:
     return Family(words, (POLE, *[(-2.0, 2.0)] * order), at)
 
 
-def led_family(
-    n: int, p: int, phi: Sequence[int], *, reflections: int = 0, taps: int = 0, feedthrough: bool = True, past: int | None = None
-) -> Family:
-    """Returns a family with v(k) = sum_j phi_j u(k+j), F = e_1, D = 0 and s = n + 1. The parameters are n poles, C, B, then G if it is
-    free, then the reflection coefficients or the taps of u."""
-    box = [POLE] * n + [(-2.0, 2.0)] * (p * n + n + (p if feedthrough else 0)) + [REFLECTION] * reflections + [(-0.9, 0.9)] * taps
+def led_family(n: int, p: int, phi: Sequence[int], *, reflections: int = 0, taps: int = 0, past: int | None = None) -> Family:
+    """Return a family with v(k) = sum_j phi_j u(k+j), F = e_1, D = 0 and s = n + 1. The parameters are n poles, C, B, G, then the
+    reflection coefficients or the taps of u."""
+    box = [POLE] * n + [(-2.0, 2.0)] * (p * n + n + p) + [REFLECTION] * reflections + [(-0.9, 0.9)] * taps
     lead = len(phi) - 1
 
     def at(point: Sequence[Any]) -> Drawn:
@@ -140,7 +138,7 @@ def led_family(
         poles, values = values[:n], values[n:]
         C, values = [values[i * n : (i + 1) * n] for i in range(p)], values[p * n :]
         B, values = [[x] for x in values[:n]], values[n:]
-        G, values = ([[x] for x in values[:p]], values[p:]) if feedthrough else ([[0]] * p, values)
+        G, values = [[x] for x in values[:p]], values[p:]
         u = shaped_input(values[:reflections])
         numerator = [*u.numerator, *values[reflections:]] if taps else list(u.numerator)
         fault: list[Any] = [0] * (len(numerator) + lead)
@@ -164,15 +162,14 @@ def led_family(
 
     colour = f"u autoregressive of order {reflections}" if reflections else f"u a moving average of order {taps}" if taps else "u white"
     led = " + ".join(f"{w} u(k+{j})" for j, w in enumerate(phi) if w)
-    words = f"n = {n}, p = {p}, s = {n + 1}, past = {past or n + 1}, F = e_1, G {'free' if feedthrough else '= 0'}, {colour}, v(k) = {led}"
+    words = f"n = {n}, p = {p}, s = {n + 1}, past = {past or n + 1}, F = e_1, G free, {colour}, v(k) = {led}"
     return Family(words, tuple(box), at)
 
 
-def open_family(n: int, p: int, *, coloured_input: bool, coloured_fault: bool) -> Family:
-    """Returns a family in which u and v are independent, one of each. The parameters are n poles, C, F, G, B; then a tap and a pole of u
-    and of v where they are coloured."""
-    colours = 2 * coloured_input + 2 * coloured_fault
-    box = [POLE] * n + [(-2.0, 2.0)] * (p * n + n + p + n) + [(-0.9, 0.9)] * colours
+def open_family(n: int, p: int) -> Family:
+    """Return a family with one u, white, and one v, coloured and independent of it. The parameters are n poles, C, F, G, B; then a tap and
+    a pole of v."""
+    box = [POLE] * n + [(-2.0, 2.0)] * (p * n + n + p + n) + [(-0.9, 0.9)] * 2
 
     def at(point: Sequence[Any]) -> Drawn:
         values = list(point)
@@ -181,8 +178,7 @@ def open_family(n: int, p: int, *, coloured_input: bool, coloured_fault: bool) -
         F, values = [[x] for x in values[:n]], values[n:]
         G, values = [[x] for x in values[:p]], values[p:]
         B, values = [[x] for x in values[:n]], values[n:]
-        (u_tap, u_pole), values = (values[:2], values[2:]) if coloured_input else ((0, 0), values)
-        v_tap, v_pole = values if coloured_fault else (0, 0)
+        v_tap, v_pole = values
         return Drawn(
             A=chain(poles),
             F=F,
@@ -192,36 +188,11 @@ def open_family(n: int, p: int, *, coloured_input: bool, coloured_fault: bool) -
             D=[[1]] * p,
             s=n + 1,
             past=n,
-            u_taps=[[[1, 0]], [[u_tap, 0]]],
-            u_den=(1, -u_pole),
+            u_taps=[[[1, 0]]],
+            u_den=(1,),
             v_taps=[[[0, 1]], [[0, v_tap]]],
             v_den=(1, -v_pole),
         )
 
-    words = f"n = {n}, p = {p}, s = {n + 1}, past = {n}, all matrices free, {'coloured' if coloured_input else 'white'} u, "
-    return Family(words + f"{'coloured' if coloured_fault else 'white'} v of its own noise", tuple(box), at)
-
-
-def vector_family(n: int, s: int, past: int, order: int) -> Family:
-    """Returns a family with nu = n inputs, A = a I and B = I. The parameters are a and the entries of the taps of u beyond the first."""
-
-    def at(point: Sequence[Any]) -> Drawn:
-        unit = [[int(i == j) for j in range(n)] for i in range(n)]
-        taps = [point[1 + k * n * n : 1 + (k + 1) * n * n] for k in range(order)]
-        tables = [unit, *([list(tap[i * n : (i + 1) * n]) for i in range(n)] for tap in taps)]
-        return Drawn(
-            A=[[point[0] * x for x in row] for row in unit],
-            F=[[int(i == 0)] for i in range(n)],
-            C=unit,
-            G=[[0]] * n,
-            B=unit,
-            D=[[0] * n] * n,
-            s=s,
-            past=past,
-            u_taps=[[[*row, 0] for row in table] for table in tables],
-            u_den=(1,),
-            v_taps=[[[*[0] * n, 1]]],
-        )
-
-    words = f"A = a I, n = nu = {n}, B = C = I, s = {s}, past = {past}, u a vector moving average of order {order}, v white of its own"
-    return Family(words, (POLE, *[(-1.5, 1.5)] * (n * n * order)), at)
+    words = f"n = {n}, p = {p}, s = {n + 1}, past = {n}, all matrices free, white u, coloured v of its own noise"
+    return Family(words, tuple(box), at)

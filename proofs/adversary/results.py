@@ -10,6 +10,9 @@
 A record keeps the SHA-256 of the statement that it attacked: where the words have changed since, it is said to be out of date and
 counts for nothing. Checked again: the quantity at the stored point, the exact decision at the point of a witness with its certificates,
 the signs at both ends of a bracket. Floats of another machine may differ in the last digits: values are compared to a hundredth.
+
+What the file tells of a search was done when the file was made: a run says "on record" of it. It looks whether the file has the SHA-256
+that it tells, and searches again from their seeds what takes at most AGAIN seconds, of which it tells what it did itself.
 """
 
 from __future__ import annotations
@@ -26,27 +29,26 @@ from typing import Any
 
 from ...base.progress import Progress
 from ...base.tasks import ordered, processes
+from ...base.writing import write_text
 from ..evidence.attacks import Aim, Attack, Attacked, Trial
 from ..trust.structure_certificates import Certificate, sha256
 from .catalogue import attacks_on, catalogue, statement_of
 from .engine import pursue, value_at
 from .following import NOTHING
-from .sweeps import Sweep, Swept, sweep
 
 FORMAT = "faultspace-adversary/1"
 FILE = "results.json"
 COUNTEREXAMPLE, CHANGE, NONE = "counterexample", "change of sign", "none found"
-SWEPT = "every case of a box"
-SWEEP = 8  # a sweep may take so many times as long as an attack
+AGAIN = 1.0  # a search on record that took so many seconds of a processor is done again in every run
+PATIENCE = 8  # and may take so many times as long, on a busy machine
 
 AttackRecord = dict[str, Any]
 
 
 def run_attacks(
-    attacks: Sequence[Attack | Sweep], *, seconds: float, seed: int, jobs: int = 1, progress: Progress | None = None
+    attacks: Sequence[Attack], *, seconds: float, seed: int, jobs: int = 1, progress: Progress | None = None
 ) -> Iterator[AttackRecord]:
-    """Every attack runs for at most so many seconds, a sweep for SWEEP times as many; the records come in order. `progress(id, done,
-    total)` is called after each."""
+    """Every attack runs for at most so many seconds; the records come in order. `progress(id, done, total)` is called after each."""
     places = {attack.id: place for place, attack in enumerate(catalogue())}
     stream = ordered(_run, [(places[attack.id], seconds, seed) for attack in attacks], count=processes(jobs))
     for done, record in enumerate(stream, 1):
@@ -59,13 +61,20 @@ def write(records: Sequence[AttackRecord], path: Path) -> None:
     """Writes the file, in the order of the catalogue."""
     order = {attack.id: place for place, attack in enumerate(catalogue())}
     kept = sorted((record for record in records if record["attack"] in order), key=lambda record: order[record["attack"]])
-    path.write_text(json.dumps({"format": FORMAT, "attacks": kept}, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    file = {"format": FORMAT, "sha256": _digest_of(kept), "attacks": kept}
+    write_text(path, json.dumps(file, indent=1, ensure_ascii=False) + "\n")
 
 
 @cache
 def stored() -> tuple[AttackRecord, ...]:
-    """Returns the records of the file that comes with the package."""
-    return tuple(json.loads(resources.files(__package__).joinpath(FILE).read_text(encoding="utf-8"))["attacks"])
+    """Returns the records of the package's file; each has under "whole" whether the file has the SHA-256 that it tells."""
+    file = json.loads(resources.files(__package__).joinpath(FILE).read_text(encoding="utf-8"))
+    whole = file.get("sha256") == _digest_of(file["attacks"])
+    return tuple({**record, "whole": whole} for record in file["attacks"])
+
+
+def _digest_of(records: Sequence[AttackRecord]) -> str:
+    return hashlib.sha256(json.dumps(records, sort_keys=True, ensure_ascii=False).encode()).hexdigest()
 
 
 def refuting(record: AttackRecord) -> bool:
@@ -73,7 +82,7 @@ def refuting(record: AttackRecord) -> bool:
     return bool(record["outcome"] != NONE)
 
 
-def stale(attack: Attack | Sweep, records: Sequence[AttackRecord]) -> bool:
+def stale(attack: Attack, records: Sequence[AttackRecord]) -> bool:
     """Return whether the records have none of this attack on the statement as it is now."""
     digest = _digest(attack.target)
     return not any(record["attack"] == attack.id and record["statement_sha256"] == digest for record in records)
@@ -90,7 +99,7 @@ def certified(record: AttackRecord) -> AttackRecord:
     """Returns the record with the certificates of its counterexample as they are made now, which is decided again at the stored point; the
     record as it is where it has none, where its attack is gone, or where the point refutes nothing, which `checked_again` then says."""
     attack, witness = next((one for one in catalogue() if one.id == record["attack"]), None), record["witness"]
-    if not isinstance(attack, Attack) or witness is None:
+    if attack is None or witness is None:
         return record
     found = attack.decide(tuple(Fraction(x) for x in witness["point"]))
     return record if found is None else {**record, "witness": {**witness, "certificates": _named(found.certificates)}}
@@ -98,12 +107,6 @@ def certified(record: AttackRecord) -> AttackRecord:
 
 def words_of(record: AttackRecord) -> str:
     """Tells a record in a sentence or two."""
-    if record["aim"] == SWEPT:
-        extent = "all of it" if record["complete"] else "a part of it"
-        tried = f"{extent}, {record['subjects']} in {record['cases']} cases, {record['seconds']:.0f} s of one processor, {record['date']}"
-        if record["outcome"] == COUNTEREXAMPLE:
-            return f"A counterexample was found in {record['family']} ({tried}): {record['witness']['words']}"
-        return f"No counterexample was found in {record['family']} ({tried})"
     tried = f"{record['starts']} starts, {record['evaluations']} values, {record['decided']} points decided exactly, "
     tried += f"{record['seconds']:.0f} s of one processor, {record['date']}"
     if record["outcome"] == COUNTEREXAMPLE:
@@ -123,10 +126,7 @@ def words_of(record: AttackRecord) -> str:
 
 def _run(place: int, seconds: float, seed: int) -> AttackRecord:
     """Runs the attack at this place of the catalogue."""
-    attack = catalogue()[place]
-    if isinstance(attack, Sweep):
-        return _swept(sweep(attack, seconds=SWEEP * seconds))
-    return _record(pursue(attack, seconds=seconds, seed=seed), seed)
+    return _record(pursue(catalogue()[place], seconds=seconds, seed=seed), seed)
 
 
 def _record(trial: Trial, seed: int) -> AttackRecord:
@@ -158,25 +158,6 @@ def _record(trial: Trial, seed: int) -> AttackRecord:
     }
 
 
-def _swept(result: Swept) -> AttackRecord:
-    one = result.sweep
-    found = result.found
-    return {
-        "attack": one.id,
-        "target": one.target,
-        "statement_sha256": _digest(one.target),
-        "family": one.words,
-        "aim": SWEPT,
-        "complete": result.complete,
-        "cases": result.cases,
-        "subjects": result.subjects,
-        "seconds": round(result.seconds, 2),
-        "date": datetime.now(UTC).date().isoformat(),
-        "outcome": COUNTEREXAMPLE if found else NONE,
-        "witness": None if found is None else {"words": found[0], "point": [], "certificates": _named(found[1])},
-    }
-
-
 def _named(certificates: Sequence[Certificate]) -> list[dict[str, str]]:
     return [{"kind": c["kind"], "sha256": sha256(c)} for c in certificates]
 
@@ -186,21 +167,35 @@ def _digest(target: str) -> str | None:
     return None if statement is None else hashlib.sha256(statement.encode()).hexdigest()
 
 
-def _attacked(record: AttackRecord, attack: Attack | Sweep | None) -> Attacked:
-    words = words_of(record)
+def _attacked(record: AttackRecord, attack: Attack | None) -> Attacked:
+    words = words_of(record) if "whole" not in record else f"On record: {words_of(record)}"
+    if not record.get("whole", True):
+        return Attacked(record["attack"], words, False, f"not found again: {FILE} is not the file whose SHA-256 it tells")
     if record["statement_sha256"] != _digest(record["target"]):
         return Attacked(record["attack"], words, False, "out of date: the statement has changed since, so that the attack must run again")
     if attack is None:
         return Attacked(record["attack"], words, False, "out of date: the attack is no longer in the catalogue")
     trouble = _again(record, attack)
+    trial = None if trouble else _searched_again(record, attack)
+    if trial is not None:
+        against = trial.witness is not None or trial.bracket is not None
+        found = "a counterexample" if against else "no counterexample"
+        words += f"; the same search now: {trial.evaluations} values, {trial.decided} points decided exactly, {found}"
+        trouble = "not found again: the search found nothing, and finds something now" if against else None
     return Attacked(record["attack"], words, refuting(record) and trouble is None, trouble)
 
 
-def _again(record: AttackRecord, attack: Attack | Sweep) -> str | None:
-    """Says what of a record is not found again; None where all of it is. A sweep is gone through again only where it found something."""
-    if isinstance(attack, Sweep):
-        again = record["witness"] is None or sweep(attack, seconds=SWEEP * 60.0).found is not None
-        return None if again else "not found again: the box has no counterexample"
+def _searched_again(record: AttackRecord, attack: Attack) -> Trial | None:
+    """Return what a search on record comes to now, from its seed; None where it is not one of those that are done again."""
+    if "whole" not in record or refuting(record) or record["seconds"] > AGAIN:
+        return None
+    return pursue(attack, seconds=PATIENCE * AGAIN, seed=record["seed"])
+
+
+def _again(record: AttackRecord, attack: Attack) -> str | None:
+    """Return what of a record is not found again; None where all of it is."""
+    if record["starts"] != attack.starts:
+        return f"not found again: the attack has {attack.starts} starts, and {record['starts']} were stored"
     if record["point"]:
         value, before = value_at(attack, record["point"]), record["nearest"]
         if abs(value - before) > 0.01 * max(value, before) and max(value, before) > NOTHING:

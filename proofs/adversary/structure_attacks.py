@@ -17,18 +17,13 @@ from random import Random
 from flint import fmpq, fmpq_poly
 
 from ...exact.algebra.matrices import Matrix, beside, column_basis, left_null_space, rank, solve_left, stacked
-from ...exact.algebra.polynomials import Poly, multiply
-from ...exact.pairs.assignment import assign_zeros, recoverable_pair
 from ...exact.pairs.bad_variety import bad_equations
-from ...exact.pairs.canonical_form import behavior_name, with_feedback
-from ...exact.pairs.no_feedthrough import zero_feedthrough
 from ...exact.pairs.polynomial import Exceptional, polynomial_at
 from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
-from ...exact.system.windows import observability_matrix, reachability_matrix
+from ...exact.system.windows import reachability_matrix
 from ..claims.common import delays, ranks_and_inversion, spaces, zeros
-from ..claims.trajectory_recovered import zeros_are_hidden_modes
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.attacks import Aim, Attack, Family, Point, Witness
 from ..evidence.corpus import Evidence, examine
@@ -37,18 +32,15 @@ from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from .structure_families import (
     Square,
-    crossed,
     exact_value,
     feedthrough,
     free_family,
     hadamard,
     hidden_family,
     idle_family,
-    later_product,
     pencil,
     product,
     rank_deficient_family,
-    rank_one_family,
     reached,
     seen,
     system_of,
@@ -59,24 +51,29 @@ Fails = Callable[[Evidence], bool]
 Show = Callable[[ResidualSystem], Iterable[Certificate]]
 Decide = Callable[[ResidualSystem], Found | None]
 
-at_zero, at_one = pencil(0), pencil(1)
+at_zero = pencil(0)
 
 WORDS = {
     at_zero: "det of a square part of P(0)",
-    at_one: "det of a square part of P(1)",
     feedthrough: "det G",
     product: "det CF",
-    later_product: "det CAF",
     seen: "det of the first n rows of O_n",
     reached: "det of the first n columns of [F AF ...]",
-    crossed: "CF between the kernel and the range of G",
 }
 
 
 def structure_attacks() -> Iterator[Attack]:
-    """Yields first attacks on what is false, then attacks on what stands."""
+    """Yield first attacks on what is false, then attacks on rows of the hypothesis table."""
     yield from _refuted()
-    yield from _standing()
+    for dropped, family, first in (
+        ("controllable", idle_family(2, 2, 2), at_zero),
+        ("A stable", free_family(2, 2, 2), at_zero),
+        ("left-invertible", rank_deficient_family(), reached),
+        ("r >= 2", free_family(2, 2, 1, feedthrough=False), at_zero),
+    ):
+        yield from on_strata(f"without codimension: {dropped}", "lines", family, [first, seen], _thick_seen)
+    dependent = free_family(2, 2, 2, feedthrough=False)
+    yield from on_strata("without range-of-F: left-invertible", "G = 0", dependent, [product, at_zero], unlike(_range_lost, zeros))
 
 
 def on_strata(target: str, name: str, family: Family, quantities: Sequence[Square], decide: Decide) -> Iterator[Attack]:
@@ -123,7 +120,7 @@ def _refuted() -> Iterator[Attack]:
     for target, known in (
         ("assumption-4.n-minus-1-known", True),
         ("assumption-4.n-minus-1-unknown", False),
-        ("proposition-3.as-printed", True),
+        ("proposition-3.n-minus-1", True),
         ("settle-2.n-minus-1", True),
     ):
         yield from on_strata(target, "one fault", tall, [at_zero], unlike(lambda d, known=known: _early_gap(d, known), delays))  # type: ignore[misc]
@@ -144,51 +141,6 @@ def _refuted() -> Iterator[Attack]:
     hidden = hidden_family(2, 2, 2)
     yield from on_strata("bad-set.codimension-unobservable", "a hidden state", hidden_family(1, 1, 1), [feedthrough], _bad_on_a_line)
     yield from on_strata("zero-assignment.without-observability", "a hidden state", hidden, [at_zero], _no_free_zeros)
-
-
-def _standing() -> Iterator[Attack]:
-    orders = unlike(wrong_delay, delays)
-    yield from on_strata("trajectory-recovered.state-known", "G of rank one", rank_one_family(2, 2), [crossed, at_zero, product], orders)
-    yield from on_strata(
-        "trajectory-recovered.state-known", "three states, G = 0", free_family(3, 2, 2, feedthrough=False), [product, later_product], orders
-    )
-    signal = unlike(wrong_signal, zeros)
-    for name, family in (
-        ("one fault, G = 0", free_family(2, 2, 1, feedthrough=False)),
-        ("two faults, G = 0", free_family(3, 2, 2, feedthrough=False)),
-        ("a hidden state, G = 0", hidden_family(3, 2, 2, feedthrough=False)),
-    ):
-        yield from on_strata("trajectory-recovered.zero-feedthrough-signal", name, family, [product, at_zero], signal)
-    for name, family in (
-        ("two states", hidden_family(2, 1, 1)),
-        ("two faults", hidden_family(2, 2, 2)),
-        ("three states", hidden_family(3, 2, 1)),
-    ):
-        yield from on_strata("zero-assignment.unobservable", name, family, [at_zero, feedthrough], misplaced)
-        yield from on_strata("zero-assignment.recoverable", name, family, [at_zero, at_one], irrecoverable)
-    for name, family in (
-        ("zeta = n", free_family(2, 2, 2)),
-        ("G of rank one", rank_one_family(2, 2)),
-        ("three outputs", free_family(2, 3, 2)),
-    ):
-        yield from on_strata(
-            "bad-set.codimension-two", name, family, [at_zero, feedthrough if "rank" not in name else product], _thick_bad_set
-        )
-    for dropped, family, first in (
-        ("controllable", idle_family(2, 2, 2), at_zero),
-        ("A stable", free_family(2, 2, 2), at_zero),
-        ("left-invertible", rank_deficient_family(), reached),
-        ("r >= 2", free_family(2, 2, 1, feedthrough=False), at_zero),
-    ):
-        yield from on_strata(f"without codimension: {dropped}", "lines", family, [first, seen], _thick_seen)
-    dependent = free_family(2, 2, 2, feedthrough=False)
-    yield from on_strata("without range-of-F: left-invertible", "G = 0", dependent, [product, at_zero], unlike(_range_lost, zeros))
-    for name, family in (
-        ("one fault", free_family(2, 2, 1)),
-        ("two faults", rank_one_family(2, 2)),
-        ("a hidden state", hidden_family(2, 2, 1)),
-    ):
-        yield from on_strata("canonical-form.popov-rows", name, family, [at_zero, seen, reached], _name_differs)
 
 
 # -- what is false ---------------------------------------------------------------------------------------------------------
@@ -327,60 +279,8 @@ def _bad_on_a_line(system: ResidualSystem) -> Found | None:
 # -- what stands -----------------------------------------------------------------------------------------------------------
 
 
-def wrong_delay(d: Evidence) -> bool:
-    if not d.left_invertible:
-        return d.delay_known_state is not None
-    return d.delay_known_state != max(d.infinite_zero_orders, default=0)
-
-
-def zeros_as_a_set(d: Evidence) -> bool:
-    return (d.delay_unknown_state is not None) != (d.left_invertible and zeros_are_hidden_modes(d.system))
-
-
-def wrong_signal(d: Evidence) -> bool:
-    if not (d.left_invertible and d.system.m and d.system.G.is_zero()):
-        return False
-    hidden = d.system.n - rank(observability_matrix(d.system, d.system.n))
-    return zero_feedthrough(kernel_representation(d.system)).pins_v != (
-        rank(d.system.C @ d.system.F) == d.system.m and d.finite_zeros == hidden
-    )
-
-
-def misplaced(system: ResidualSystem) -> Found | None:
-    """Finds zeros that are not assigned, among multiples of the fixed zeros of every degree: q^k, and (q - 1)^k, which may meet a pole or a
-    hidden mode."""
-    pencil_ = pencil_of(system)
-    field = system.field
-    if not pencil_.columns:
-        return None
-    for root in (0, 1):
-        free: Poly = (field.element(1),)
-        while len(free) + len(pencil_.fixed) - 2 <= pencil_.zeta:
-            wanted = multiply(free, pencil_.fixed)
-            P = assign_zeros(pencil_, [field.write(x) for x in wanted]).P
-            pair = examine_by_polynomial("adversary", "given zeros", system, P, wanted, 1)
-            if not (pair.equal and pair.zero_polynomial == pair.wanted):
-                certificates = [comparison_certificate(pencil_.kernel, kernel_representation(pair.pair)), make.finite_zeros(pair.pair)]
-                return f"{system}, wanted {list(map(str, wanted))}", certificates
-            free = multiply(free, (field.element(-root), field.element(1)))
-    return None
-
-
-def irrecoverable(system: ResidualSystem) -> Found | None:
-    pencil_ = pencil_of(system)
-    kernel = kernel_representation(recoverable_pair(pencil_).assignment.system)
-    certificates = [comparison_certificate(pencil_.kernel, kernel), make.inversion_delay(kernel, known_state=False)]
-    fine = certificates[0]["kind"] == "behaviour-equality" and certificates[1]["statement"]["delay"] is not None
-    return None if fine else (str(system), certificates)
-
-
-def _thick_bad_set(system: ResidualSystem) -> Found | None:
-    pencil_ = pencil_of(system)
-    return _thick(system) if pencil_.observable and pencil_.columns >= 2 and pencil_.zeta >= 1 else None
-
-
 def _thick_seen(system: ResidualSystem) -> Found | None:
-    """Decides as `_thick_bad_set` does, without a word on r."""
+    """Find a bad set that is a hypersurface, of an observable system, whatever r is."""
     pencil_ = pencil_of(system)
     return _thick(system) if pencil_.observable and pencil_.columns and pencil_.zeta >= 1 else None
 
@@ -435,18 +335,3 @@ def _through(values: Sequence[fmpq]) -> fmpq_poly:
         result += basis * ((y - result(fmpq(t))) / basis(fmpq(t)))
         basis *= fmpq_poly([-t, 1])
     return result
-
-
-def _name_differs(system: ResidualSystem) -> Found | None:
-    """Finds a system of other states, coordinates or faults such that equal behaviours and equal Popov rows do not go together."""
-    kernel = kernel_representation(system)
-    others = [with_feedback(system, [[1] * system.n] * system.m), with_feedback(system, [[i - 1 for i in range(system.n)]] * system.m)]
-    others.append(recoverable_pair(pencil_of(system)).assignment.system)
-    others.append(ResidualSystem(system.A, -system.F, -system.C, system.G))
-    others.append(ResidualSystem(system.A, system.F, system.C, Matrix.zero(system.field, system.p, system.m)))
-    for other in others:
-        compared = kernel_representation(other)
-        certificates = [comparison_certificate(kernel, compared), make.window_ranks(kernel), make.window_ranks(compared)]
-        if (certificates[0]["kind"] == "behaviour-equality") != (behavior_name(kernel) == behavior_name(compared)):
-            return f"{system} and {other}", certificates
-    return None

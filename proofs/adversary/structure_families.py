@@ -6,7 +6,7 @@ hidden_family      the first state is seen by no output
 idle_family        the first state is reached by no fault
 rank_deficient_family   two faults that are one
 rank_one_family    G of rank one: zeros at infinity
-pencil, feedthrough, product, later_product, seen, reached, crossed   square parts of P(z), G, CF, CAF, O_n, [F AF ...], of CF beside G
+pencil, feedthrough, product, seen, reached   square parts of P(z), G, CF, O_n, [F AF ...]
 determinant        by expansion, the same for floats and Fractions
 system_of          the exact system
 hadamard           a determinant in floats against the product of the lengths of its rows
@@ -60,9 +60,9 @@ def free_family(n: int, p: int, m: int, *, feedthrough: bool = True) -> Family:
     return Family(f"n = {n}, p = {p}, m = {m}, every entry free{'' if feedthrough else ', G = 0'}", (ENTRY,) * count, at)
 
 
-def hidden_family(n: int, p: int, m: int, *, feedthrough: bool = True) -> Family:
-    """Returns a family in which the first state moves alone and no output sees it: (A, C) is not observable."""
-    free = free_family(n, p, m, feedthrough=feedthrough)
+def hidden_family(n: int, p: int, m: int) -> Family:
+    """Return a family in which the first state moves alone and no output sees it: (A, C) is not observable."""
+    free = free_family(n, p, m)
 
     def at(point: Sequence[Any]) -> Tables:
         tables = free.at(point)
@@ -127,11 +127,6 @@ def product(t: Tables) -> Rows:
     return _product(t.C, t.F)[: len(t.F[0])]
 
 
-def later_product(t: Tables) -> Rows:
-    """Returns the first m rows of CAF."""
-    return _product(_product(t.C, t.A), t.F)[: len(t.F[0])]
-
-
 def seen(t: Tables) -> Rows:
     """Returns the first n rows of O_n."""
     block: Rows = t.C
@@ -150,13 +145,6 @@ def reached(t: Tables) -> Rows:
         rows += [list(column) for column in zip(*block, strict=True)]
         block = _product(t.A, block)
     return rows[: len(t.A)]
-
-
-def crossed(t: Tables) -> Rows:
-    """Returns what is left of CF on the kernel of a rank-one G and beside its range, for p = m = 2."""
-    (a, b), (c, d) = _product(t.C, t.F)
-    left, right = (-_one(t.G, 1), _one(t.G, 0)), (-t.G[0][1] or -t.G[1][1], t.G[0][0] or t.G[1][0])
-    return [[left[0] * (a * right[0] + b * right[1]) + left[1] * (c * right[0] + d * right[1])]]
 
 
 def determinant(rows: Rows) -> Any:
@@ -184,10 +172,6 @@ def hadamard(family: Family, square: Square) -> Callable[[Floats], float]:
 def exact_value(family: Family, square: Square) -> Callable[[Point], Fraction]:
     """Returns the same function in exact arithmetic, without the bound."""
     return lambda point: Fraction(determinant(square(family.at(point))))
-
-
-def _one(G: Rows, row: int) -> Any:
-    return G[row][0] or G[row][1]
 
 
 def _product(left: Rows, right: Rows) -> Rows:

@@ -110,22 +110,21 @@ def at_root(case: Case, field: RealField) -> Case:
     return Record(FaultySystem(system(driven.residual), moved(driven.B), moved(driven.D)), moved(case.u), moved(case.x0))
 
 
+KINDS: tuple[tuple[type, str, tuple[str, ...]], ...] = (
+    (ResidualSystem, "system", (SYSTEM,)),
+    (Choice, "choice", (CHOICE,)),
+    (Record, "record", (RECORD,)),
+    (Pair, "pair of systems", (PAIR, ONE_A_AND_C)),
+)
+
+
 def fitting(case: Case, about: str) -> Case:
     """Return the case for claims about `about`. Raises InvalidInput where it is no such one."""
-    if isinstance(case, ResidualSystem):
-        if about != SYSTEM:
-            raise InvalidInput(f"got a system, expected a {about}: {FORMS[about]}")
+    given, fits = next((words, fits) for kind, words, fits in KINDS if isinstance(case, kind))
+    if about not in fits:
+        raise InvalidInput(f"got a {given}, expected a {about}: {FORMS[about]}")
+    if not isinstance(case, Pair):
         return case
-    if isinstance(case, Choice):
-        if about != CHOICE:
-            raise InvalidInput(f"got a choice, expected a {about}: {FORMS[about]}")
-        return case
-    if isinstance(case, Record):
-        if about != RECORD:
-            raise InvalidInput(f"got a record, expected a {about}: {FORMS[about]}")
-        return case
-    if about not in (PAIR, ONE_A_AND_C):
-        raise InvalidInput(f"got a pair of systems, expected a {about}: {FORMS[about]}")
     if about == ONE_A_AND_C and (case.first.A, case.first.C) != (case.second.A, case.second.C):
         raise InvalidInput("got a pair of systems with different A or C, expected the same in both")
     return Pair(case.first, case.second, about == ONE_A_AND_C)

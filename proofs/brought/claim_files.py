@@ -17,12 +17,18 @@ from .claims import Claim, make_claim, nearest
 FORMAT = "faultspace-claims/1"
 MOST_CHARACTERS, MOST_CLAIMS = 10**6, 1000
 ID = re.compile(r"[A-Za-z0-9_-]{1,80}")
+MOST_PARTS = 16  # of a key with dots; four are the most that a claim has
+_QUOTED = re.compile(r"""'''.*?'''|\"{3}.*?\"{3}|"(?:\\.|[^"\\\n])*"|'[^'\n]*'|#[^\n]*""", re.DOTALL)
+_PARTS = re.compile(rf"(?<![\w-])(?:[\w-]+[ \t]*\.[ \t]*){{{MOST_PARTS}}}")
 
 
 def read_claims(text: str) -> list[Claim]:
     """Return the claims of a file, in its order. Raises InvalidInput that names the line, what was got and what is expected."""
     if len(text) > MOST_CHARACTERS:
         raise InvalidInput(f"got {len(text)} characters, expected at most {MOST_CHARACTERS}")
+    # The reader takes the square of a key's parts, and all of them again for each.
+    if (long := _PARTS.search(_QUOTED.sub("_", text))) is not None:
+        raise InvalidInput(f"got the key {shorten(long[0])} of more than {MOST_PARTS} parts, expected [claim.NAME] with keys below it")
     try:
         document = tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:

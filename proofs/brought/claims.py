@@ -18,15 +18,15 @@ from typing import Any
 from ...base.errors import InvalidInput, shorten
 from ...exact.algebra.embeddings import one_modulus
 from ...exact.algebra.fields import QQ, Field, NumberField, PrimeField
+from ..boxes.box import Box
+from ..boxes.choice_box import ChoiceBox
+from ..boxes.pair_box import PairBox
+from ..boxes.record_box import RecordBox
 from ..language.grammar import read
 from ..language.nodes import Node, reads, walk
 from ..language.vocabularies import ABOUT_A_SYSTEM, CHOICE, ONE_A_AND_C, PAIR, RECORD, SYSTEM, VOCABULARIES, Vocabulary
 from ..quantities.registry import Kind, quantities
-from .boxes import Box
-from .choice_boxes import ChoiceBox
 from .fields import read_entries, read_field, usual_entries
-from .pair_boxes import PairBox
-from .record_boxes import RecordBox
 
 KEYS = ("statement", "source", "about", "hypotheses", "conclusion", "fields", "box", "expected")
 BOX_KEYS = ("n", "m", "p", "total", "entries")

@@ -19,6 +19,7 @@ from ..language.vocabularies import SYSTEM
 from ..quantities.cases import Case
 from ..trust.structure_certificates import Certificate, sha256
 from .answers import Counterexample, Tried
+from .drawn_cases import LARGEST_STATES
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,8 @@ class Bound:
     only the claim's own bound allows, `case` lies outside the box. `known` names like statements, `nouns` are what one case is called, and
     several.
 
+    `theorems` are those of Rocq that it follows from, none where it is not proved.
+
     The first of `sharper` has the next constant, and `case` refutes it; the others have one coefficient that is one less, or more.
     """
 
@@ -61,6 +64,13 @@ class Bound:
     sharper: tuple[Sharper, ...]
     known: tuple[str, ...]
     nouns: tuple[str, str] = ("system", "systems")
+    theorems: tuple[str, ...] = ()
+
+    @property
+    def standing(self) -> str:
+        """This says how far it was tried, and what proves it."""
+        tried = f"not refuted up to {LARGEST_STATES} states by what was tried"
+        return f"{tried}; " + (f"it follows from {', '.join(self.theorems)}" if self.theorems else "no theorem")
 
     @property
     def first(self) -> ResidualSystem:
@@ -77,6 +87,7 @@ class Bound:
     def sheet(self, name: str) -> Iterator[tuple[str, str]]:
         """These pairs say it, below its `name`."""
         yield name, self.text
+        yield "  standing", self.standing
         inside = f"by {counted(self.systems, *self.nouns)} of the box, first by {self.case}"
         yield "  attained", inside if self.systems else f"by no {self.nouns[0]} of the box, but outside it by {self.case}"
         for k, one in enumerate(self.sharper):
@@ -91,17 +102,21 @@ class Bound:
             "attained": {**_parts(self.case), "systems": self.systems},
             "sharper": [one.to_json() for one in self.sharper],
             "known": list(self.known),
+            "theorems": list(self.theorems),
         }
 
 
 @dataclass(frozen=True)
 class Evidence(Tried):
-    """Direct sums of two cases of the box and drawn cases were looked at, too; `rows` counts the different values that were met."""
+    """Direct sums of two cases of the box and drawn cases were looked at, too; `rows` counts the different values that were met.
+    `sparse` systems attacked the bounds, of which `sparse_met` meet the hypotheses; the rows have those alone that refuted one."""
 
     sums: int
     sums_met: int
     drawn: int
     drawn_met: int
+    sparse: int
+    sparse_met: int
     rows: int
 
     @property
@@ -109,7 +124,8 @@ class Evidence(Tried):
         """This says it in a sentence."""
         sums = f"{self.sums} direct sums of {self.of} of the box, {self.sums_met} meet them"
         drawn = f"{self.drawn} drawn {self.of} with up to 6 states, {self.drawn_met} meet them"
-        return f"{super().words}; {sums}; {drawn}; together {counted(self.rows, 'set')} of values"
+        sparse = f"; {self.sparse} sparse ones more against the bounds, {self.sparse_met} meet them" if self.sparse else ""
+        return f"{super().words}; {sums}; {drawn}{sparse}; together {counted(self.rows, 'set')} of values"
 
     def to_json(self) -> dict[str, Any]:
         """The result is "tried" in the JSON answer."""
@@ -118,11 +134,12 @@ class Evidence(Tried):
 
 @dataclass(frozen=True, repr=False)
 class Conjectures(Shown):
-    """Bounds above and below on a quantity by others, which nothing that was tried refutes and some system attains: no theorems.
+    """Bounds above and below on a quantity by others, which nothing that was tried refutes and some system attains.
 
     `above` and `below` list them, each with `text`, a bound in the language, `first`, the first system of the box that attains it,
     or `case`, the first pair, choice or record, `systems`, how many of the box do, `sharper`, the next sharper bounds with the smallest
-    case that refutes each, and `known`, the like statements of the field and of the ledger; none is implied by the others. `equal` are sums
+    case that refutes each, `theorems`, those that it follows from, if any, and `known`,
+    the like statements of the field and of the ledger; none is implied by the others. `equal` are sums
     that the target equals wherever it was looked at. `by` are the quantities of the bounds; `left_out` those that are infinite on a case,
     which is named. `about` is what claims say they are about; `tried` counts what was gone through. Source: [F75], [VD79] for the ranks
     that the quantities are found by. Raises nothing by itself.

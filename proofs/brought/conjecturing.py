@@ -7,7 +7,7 @@ sharpen           bounds in the place of a claim's, over each of its fields
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isinf
 from typing import Any
@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from ...base.errors import InvalidInput, shorten
 from ...base.progress import Progress, silent
 from ...base.threads import one_thread
+from ..boxes.box import Box
 from ..language.evaluating import Asked
 from ..language.grammar import OF_A_MATRIX
 from ..language.linear import linear, words
@@ -27,12 +28,13 @@ from ..quantities.cases import Case
 from ..quantities.elimination import Integers
 from ..quantities.registry import Kind
 from .bounds import ABOVE, BELOW, Fit, Fitted, Form, Grammar, fit
-from .boxes import Box
 from .claims import Claim, about_what, expression, make_claim
 from .conjectures import Bound, Conjectures, Evidence, Sharpened, Sharper
 from .deciding import certified
 from .known_bounds import known_as
+from .sparse_systems import Found, withstand
 from .tables import Row, Table, tabulate
+from .theorems import proof_of
 from .usual_columns import default_columns
 
 MOST = 10**9
@@ -71,12 +73,13 @@ def conjecture(
     quantities and the ranks of A (n x n), F (n x m), C (p x n), G (p x m) are used. A bound is a sum of at most `terms` of them with
     coefficients from -`largest` to `largest`, one of which may be the larger (below: the smaller) of two, and a constant from -`constant`
     to `constant`; `terms` is 3 by default, and 2 where the bounds are about more than one system. What is answered is refuted by no system
-    of the box, no known one, no direct sum of two that stand for others and none of those that are drawn, and attained by a system of the
-    box; none is implied by the others, and wherever a bound of this form is attained in the box, one that is answered is, forms that equal
-    the target everywhere, which are told apart, left aside. The next sharper ones come with the smallest system that refutes them, and its
-    certificates. None of this is a proof. With `about` "pair", "pair with the same (A, C)", "choice" or "record" the same is done with
-    these, as `claim` does it, in the place of systems. `field`, `box`, `most`, `jobs` and `on_progress` are those of `claim`. Source:
-    [F75], [VD79] for the ranks that the quantities are found by.
+    of the box, no known one, no direct sum of two that stand for others, none of those that are drawn, and none of 90000 sparse ones (fewer
+    where drawing takes 30 s), and attained by a system of the box; none is implied by the others, and wherever a bound of this form is
+    attained in the box, one that is answered is, forms that equal the target everywhere, which are told apart, left aside. The next sharper
+    ones come with the smallest system that refutes them, and its certificates. A bound that follows from theorems of Rocq names them; else
+    none of this is a proof. With `about` "pair", "pair with the same (A, C)", "choice" or "record" the same is done with these, as `claim`
+    does it, in the place of systems. `field`, `box`, `most`, `jobs` and `on_progress` are those of `claim`. Source: [F75], [VD79] for the
+    ranks that the quantities are found by.
 
     Raises InvalidInput for what is no expression, for an empty box, where the target is infinite or an expression has no value on a
     system, or a case of another kind, which is named, and for numbers out of range.
@@ -98,15 +101,18 @@ def conjecture(
     given: dict[str, Any] = {"about": about, "conclusion": f"({node.text}) == 0", "hypotheses": list(hypotheses), "fields": [field]}
     claim = make_claim("conjecture", given | ({} if box is None else {"box": box}))
     columns = list({one.text: one for one in (_integer(text, f"by[{k}]", about) for k, text in enumerate(names))}.values())
-    table = _table(claim, field, [node, *columns], most, jobs, on_progress or silent)
-    _must_be_finite(table, node, "target")
-    finite = _columns(table, [_named(one) for one in columns], 1)
-    bounds, equal = {}, []
-    for side in (ABOVE, BELOW):
-        found = _fit(table, finite, grammar, side)
-        bounds[side] = tuple(_bounds(claim, table, node, finite, found.kept, side))
-        least = min((one.cost for one in found.equal), default=0)
-        equal += [f"{node.text} == {one.form.words(finite.names, one.constant)}" for one in found.equal if one.cost == least]
+    progress = on_progress or silent
+    table = _table(claim, field, [node, *columns], most, jobs, progress)
+
+    def seek() -> tuple[tuple[_Columns, dict[str, Fit]], list[Node]]:
+        _must_be_finite(table, node, "target")
+        finite = _columns(table, [_named(one) for one in columns], 1)
+        fits = {side: _fit(table, finite, grammar, side) for side in (ABOVE, BELOW)}
+        texts = [_told(node, finite, one, side) for side, found in fits.items() for one in found.kept]
+        return (finite, fits), [_word(text, claim) for text in [*texts, *_equal(node, finite, fits.values())]]
+
+    finite, fits = _withstood(claim, table, [node, *columns], seek, progress)
+    bounds = {side: tuple(_bounds(claim, table, node, finite, found.kept, side)) for side, found in fits.items()}
     return Conjectures(
         target=node.text,
         about=about,
@@ -116,7 +122,7 @@ def conjecture(
         left_out=finite.left_out,
         above=bounds[ABOVE],
         below=bounds[BELOW],
-        equal=tuple(dict.fromkeys(equal))[:MOST_EQUAL],
+        equal=tuple(_equal(node, finite, fits.values()))[:MOST_EQUAL],
         grammar={side: grammar.words(side) for side in (ABOVE, BELOW)},
         tried=_evidence(table),
         seconds=time.perf_counter() - started,
@@ -134,14 +140,21 @@ def _sharpened(claim: Claim, field: str, most: int, jobs: int, progress: Progres
     own = [name for name in linear(other).multiples if name != target.text]
     names = list(dict.fromkeys([*own, *default_columns(target, claim.about)]))
     columns = [_integer(one, f"claim.{claim.id}.conclusion", claim.about) for one in names]
-    table = _table(claim, field, [target, other, *columns], most, jobs, progress)
-    _must_be_finite(table, target, f"claim.{claim.id}.conclusion")
-    finite, grammar = _columns(table, [_named(one) for one in columns], 2), Grammar(_terms(claim.about))
-    bound, refuting = _own(claim, table, target, other, side, strict) if table.rows else (None, None)
-    kept = [k for k, name in enumerate(finite.names) if name in {_named(one) for one in columns[: len(own)]}]
-    narrow = _Columns(tuple(finite.names[k] for k in kept), finite.values[:, kept], {})
-    in_words = tuple(_bounds(claim, table, target, narrow, _fit(table, narrow, grammar, side).kept, side))
-    others = _fit(table, finite, grammar, side)
+    table, grammar = _table(claim, field, [target, other, *columns], most, jobs, progress), Grammar(_terms(claim.about))
+
+    def seek() -> tuple[tuple[_Columns, _Columns, Fit, Fit, Bound | None, Case | None], list[Node]]:
+        _must_be_finite(table, target, f"claim.{claim.id}.conclusion")
+        finite = _columns(table, [_named(one) for one in columns], 2)
+        bound, refuting = _own(claim, table, target, other, side, strict) if table.rows else (None, None)
+        kept = [k for k, name in enumerate(finite.names) if name in {_named(one) for one in columns[: len(own)]}]
+        narrow = _Columns(tuple(finite.names[k] for k in kept), finite.values[:, kept], {})
+        ours, others = _fit(table, narrow, grammar, side), _fit(table, finite, grammar, side)
+        texts = [_told(target, where, one, side) for where, fitted in ((narrow, ours), (finite, others)) for one in fitted.kept]
+        texts += [bound.text] if bound else []
+        return (finite, narrow, ours, others, bound, refuting), [_word(text, claim) for text in texts]
+
+    finite, narrow, ours, others, bound, refuting = _withstood(claim, table, [target, other, *columns], seek, progress)
+    in_words = tuple(_bounds(claim, table, target, narrow, ours.kept, side))
     told = {one.text for one in in_words}
     return Sharpened(
         id=claim.id,
@@ -189,13 +202,13 @@ def _own(claim: Claim, table: Table, target: Node, other: Node, side: str, stric
     told = before + words(whole.multiples.items(), constant)
     sharper = _refuted(claim, before + words(whole.multiples.items(), constant - sign), table.rows, attained)
     first = next(row for row, here in zip(table.rows, attained, strict=True) if here)
-    return Bound(told, first.case, _systems(table, attained), (sharper,), _known(claim, told), _nouns(table)), refuting
+    systems = _systems(table, attained)
+    return Bound(told, first.case, systems, (sharper,), _known(claim, told), _nouns(table), _proved(claim, told)), refuting
 
 
 def _bounds(claim: Claim, table: Table, target: Node, columns: _Columns, kept: Sequence[Fitted], side: str) -> Iterator[Bound]:
     sign = 1 if side == ABOVE else -1
     targets = _targets(table)
-    before = f"{target.text} {SIGNS[side]} "
     natural: NDArray[np.bool_] = np.all(columns.values >= 0, axis=0)
     for one in kept:
         sharper = [(Form(one.form.terms), one.constant - sign)]
@@ -204,13 +217,45 @@ def _bounds(claim: Claim, table: Table, target: Node, columns: _Columns, kept: S
                 smaller = replace(term, coefficient=term.coefficient - sign)
                 terms = tuple(smaller if place == k else other for place, other in enumerate(one.form.terms))
                 sharper.append((Form(tuple(other for other in terms if other.coefficient)), one.constant))
-        told = before + one.form.words(columns.names, one.constant)
+        told = _told(target, columns, one, side)
         listed = []
         for form, constant in sharper:
             gaps: Integers = sign * (targets - form.on(columns.values) - constant)
-            listed.append(_refuted(claim, before + form.words(columns.names, constant), table.rows, gaps > 0))
+            text = f"{target.text} {SIGNS[side]} {form.words(columns.names, constant)}"
+            listed.append(_refuted(claim, text, table.rows, gaps > 0))
         first = next(row for row, here in zip(table.rows, one.attained, strict=True) if here)
-        yield Bound(told, first.case, _systems(table, one.attained), tuple(listed), _known(claim, told), _nouns(table))
+        systems = _systems(table, one.attained)
+        yield Bound(told, first.case, systems, tuple(listed), _known(claim, told), _nouns(table), _proved(claim, told))
+
+
+def _told(target: Node, columns: _Columns, one: Fitted, side: str) -> str:
+    return f"{target.text} {SIGNS[side]} {one.form.words(columns.names, one.constant)}"
+
+
+def _equal(target: Node, columns: _Columns, fits: Iterable[Fit]) -> list[str]:
+    """Return the simplest of the sums that the target equals, above and below."""
+    texts = []
+    for found in fits:
+        least = min((one.cost for one in found.equal), default=0)
+        texts += [f"{target.text} == {one.form.words(columns.names, one.constant)}" for one in found.equal if one.cost == least]
+    return list(dict.fromkeys(texts))
+
+
+def _withstood(
+    claim: Claim, table: Table, nodes: Sequence[Node], seek: Callable[[], tuple[Found, list[Node]]], progress: Progress
+) -> Found:
+    """Return what is found once sparse systems have attacked it, where the claim is about systems."""
+    if claim.about != SYSTEM or not table.rows:
+        return seek()[0]
+    return withstand(table, [one.that for one in claim.hypotheses], nodes, seek, progress)
+
+
+def _proved(claim: Claim, text: str) -> tuple[str, ...]:
+    """Return the theorems that a bound on systems follows from."""
+    if claim.about != SYSTEM:
+        return ()
+    proof = proof_of([one.that for one in claim.hypotheses], _word(text, claim))
+    return () if proof is None else tuple(proof.theorems)
 
 
 def _refuted(claim: Claim, text: str, rows: Sequence[Row], failing: NDArray[np.bool_]) -> Sharper:

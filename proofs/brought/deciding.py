@@ -14,6 +14,7 @@ from ...base.errors import InvalidInput
 from ...base.progress import Progress
 from ...exact.algebra.matrices import Matrix
 from ...exact.system.systems import ResidualSystem
+from ..boxes.box import Box
 from ..language.evaluating import evaluate, exactly
 from ..language.nodes import Node, Undefined
 from ..language.vocabularies import SYSTEM
@@ -21,7 +22,6 @@ from ..quantities.cases import Case, size_of
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, Unprovable, accept, sha256
 from .answers import ClaimAnswer, Counterexample, Dropped, Tried
-from .boxes import Box
 from .claims import Answered, Claim
 from .kept import Sharing
 from .known_cases import known_cases, smaller

@@ -26,11 +26,10 @@ from fractions import Fraction
 import numpy as np
 
 from ..language.nodes import Node
+from ..quantities.registry import Kind, quantities
 from .normal_forms import (
-    COUNTS,
     FALSE,
     INFINITY,
-    LENGTHS,
     AtMostZero,
     Both,
     Each,
@@ -40,6 +39,7 @@ from .normal_forms import (
     Named,
     Opaque,
     Unknown,
+    balance,
     formula,
     matrices,
     negated,
@@ -128,19 +128,17 @@ def _parts(one: Formula) -> Iterator[Formula]:
 def _meanings(nodes: Sequence[Node]) -> Iterator[Formula]:
     """Yield what the words mean that the claim uses, and those that stand in theorems."""
     zero = number(0)
-    at_most = [("normal_rank", "m"), ("normal_rank", "p")]
-    at_most += [(name, "n") for name in COUNTS if name.endswith(("_dimension", "_index"))]
-    for name in (*COUNTS, *(f"sum({name})" for name in LENGTHS)):
-        yield AtMostZero(zero - of_atom(Atom(name)))
-    at_most += [("lag", "sum(left_minimal_indices)")]
-    for name, (more, less) in LENGTHS.items():  # an empty list has the sum 0
-        length = of_atom(Atom(more)) - (of_atom(Atom(less)) if less else zero)
-        whole = of_atom(Atom("infinite_zeros" if name == "infinite_zero_orders" else f"sum({name})"))
-        yield Either((AtMostZero(number(1) - length), AtMostZero(whole)))
-    for less, more in at_most:
-        yield AtMostZero(of_atom(Atom(less)) - of_atom(Atom(more)))
-    for name in ("delay_known", "delay_unknown"):
-        yield AtMostZero(zero - of_atom(Atom(name, finite=False)))
+    for known in quantities().values():
+        if known.kind == Kind.INTEGER and not (known.windowed or known.parts):
+            yield AtMostZero(zero - of_atom(Atom(known.name, finite=not known.infinite)))
+        for bound in known.at_most:
+            yield AtMostZero(of_atom(Atom(known.name)) - of_atom(Atom(bound)))
+        if known.kind == Kind.LIST and known.balance is not None:
+            listed = Node("quantity", Kind.LIST, (), ("", known.name), "", 0)
+            more, less = balance(known.balance)
+            yield AtMostZero(zero - of_atom(Atom(f"sum({known.name})")))
+            empty = AtMostZero(total(Node("sum", Kind.INTEGER, (listed,), None, "", 0)))
+            yield Either((AtMostZero(number(1) - more + less), empty))
     yield Finite(INFINITY, so=False)
     for one in matrices(nodes):
         try:

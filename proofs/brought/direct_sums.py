@@ -22,6 +22,7 @@ from ...exact.algebra.matrices import Matrix
 from ...exact.structure.fault_columns import FaultSpace, fault_space, with_pair
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
+from ..boxes.box import Box
 from ..quantities.batches import Batch
 from ..quantities.cases import Case, Choice, Pair, Record, size_of
 from ..quantities.choices import Choices
@@ -29,7 +30,6 @@ from ..quantities.elimination import Integers
 from ..quantities.many import Many
 from ..quantities.pairs import Pairs
 from ..quantities.records import Records
-from .boxes import Box
 
 Couple = tuple[Case, Case]
 
@@ -51,7 +51,7 @@ def direct_sums(couples: Sequence[Couple], box: Box) -> Many:
             _systems([(getattr(one, name), getattr(other, name)) for one, other in couples], box) for name in ("first", "second")
         )
         each = np.arange(len(couples))
-        return Pairs(first, second, each, each, couples[0][0].one_A_and_C)
+        return Pairs(first, each, second, each, couples[0][0].one_A_and_C)
     if isinstance(couples[0][0], Choice):
         return _choices(couples, box)
     if isinstance(couples[0][0], Record):

@@ -16,6 +16,8 @@ from numpy.random import Generator
 
 from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
+from ..boxes.box import Box
+from ..boxes.choice_box import choices_of
 from ..language.vocabularies import CHOICE, ONE_A_AND_C, RECORD, SYSTEM
 from ..quantities.batches import Batch
 from ..quantities.blocks import lifted
@@ -23,8 +25,6 @@ from ..quantities.elimination import Integers
 from ..quantities.many import Many
 from ..quantities.pairs import Pairs
 from ..quantities.records import Records
-from .boxes import Box
-from .choice_boxes import choices_of
 
 AT_A_TIME, LARGEST_STATES, MOST_FAULTS, MOST_OUTPUTS = 100, 6, 3, 4
 CHOICES_EACH, LONGEST = 4, 16  # choices of one system, whose fault space takes a while to find; samples of a record
@@ -70,7 +70,7 @@ def _pairs(box: Box, rng: Generator, sizes: Sizes) -> Pairs:
         second = _free(second) if rng.random() < 0.5 else second
     both = (second, first) if rng.random() < 0.5 else (first, second)
     each = np.arange(AT_A_TIME)
-    return Pairs(*both, each, each, shared)
+    return Pairs(both[0], each, both[1], each, shared)
 
 
 def _chained(batch: Batch) -> Batch:

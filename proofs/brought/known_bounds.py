@@ -16,12 +16,13 @@ from importlib import resources
 from ..language.linear import Linear, linear
 from ..language.nodes import Node
 from ..language.vocabularies import SYSTEM
+from ..quantities.registry import Kind, quantities
 from .claim_files import read_claims
 from .claims import Answered
 
 FILES = ("literature", "ledger")
 MEANINGS = {
-    "zeta": Linear({"finite_zeros": 1, "infinite_zeros": 1}, 0),
+    **{name: Linear(dict.fromkeys(one.parts, 1), 0) for name, one in quantities().items() if one.kind == Kind.INTEGER and one.parts},
     **{f"nullity({name})": Linear({width: 1, f"rank({name})": -1}, 0) for name, width in (("A", "n"), ("F", "m"), ("C", "n"), ("G", "m"))},
 }
 

@@ -23,13 +23,13 @@ from ...exact.algebra.matrices import Matrix
 from ...exact.pairs.witnesses import BadPair, bad_pair
 from ...exact.structure.fault_columns import fault_space, fault_space_dimension, with_pair
 from ...exact.system.systems import FaultySystem, ResidualSystem
+from ..boxes.box import Box
 from ..evidence.alternatives import relatives, small_columns
 from ..evidence.families import shift_registers
 from ..evidence.pairs_by_polynomial import pencil_of
+from ..evidence.subjects import Subject
 from ..language.vocabularies import CHOICE, ONE_A_AND_C, RECORD, SYSTEM
 from ..quantities.cases import Case, Choice, ChoiceSubject, Known, Pair, PairSubject, Record, RecordSubject
-from ..quantities.subjects import Subject
-from .boxes import Box
 from .known_systems import CORPUS, known_systems, over, simpler_matrices, steps, with_matrix, without_fault, without_output, without_state
 
 LARGEST_STATES, REGISTERS, CHOICES, SEED = 3, 6, 2, 1

@@ -22,7 +22,7 @@ from math import isinf
 
 from ..language.grammar import OF_A_MATRIX
 from ..language.nodes import Node
-from ..quantities.registry import Kind
+from ..quantities.registry import Kind, quantities
 from .sums import Atom, Sum, number, of_atom
 
 
@@ -171,13 +171,17 @@ def _word(value: tuple[str, str], so: bool) -> Formula:
     subject, name = value
     if subject:
         raise Unknown(f"{subject}.{name}")
-    if name == "minimal":
-        parts = (_word(("", "observable"), so), _word(("", "controllable"), so))
+    known = quantities().get(name)
+    if known is not None and known.parts:
+        parts = tuple(_word(("", one), so) for one in known.parts)
         return Both(parts) if so else Either(parts)
-    if name in WORDS:
-        less, more = (_quantity(one) if one else number(0) for one in WORDS[name])
-        return _equal(less, more, so)
-    return Named(name, so)
+    return Named(name, so) if known is None or known.balance is None else _equal(*balance(known.balance), so)
+
+
+def balance(sides: tuple[str, str]) -> tuple[Sum, Sum]:
+    """Return the two sides by which a word or the length of a list is told."""
+    left, right = (_quantity(one) if one else number(0) for one in sides)
+    return left, right
 
 
 def _compared(left: Node, sign: str, right: Node, so: bool, env: Env) -> Formula:
@@ -244,31 +248,14 @@ def _infinite(one: Sum) -> frozenset[Atom]:
 # -- integers ----------------------------------------------------------------------------------------------------------
 
 INFINITY = Atom("inf", finite=False)
-COUNTS = (  # integers from 0 on, never infinite
-    *("n", "m", "p", "normal_rank", "lag", "n_z", "finite_zeros", "infinite_zeros", "observability_index", "controllability_index"),
-    *("unobservable_dimension", "uncontrollable_dimension", "weakly_unobservable_dimension", "strongly_reachable_dimension"),
-)
-WITH_A_WINDOW = ("rank_O", "rank_T", "rank_OT", "solutions")
-# the words that are equations: their two sides, "" being 0
-WORDS = {
-    "left_invertible": ("normal_rank", "m"),
-    "right_invertible": ("normal_rank", "p"),
-    "observable": ("unobservable_dimension", ""),
-    "controllable": ("uncontrollable_dimension", ""),
-    "strongly_observable": ("weakly_unobservable_dimension", ""),
-}
-LENGTHS = {  # the length of a list is the first less the second
-    "left_minimal_indices": ("p", "normal_rank"),
-    "right_minimal_indices": ("m", "normal_rank"),
-    "infinite_zero_orders": ("normal_rank", ""),
-}
 SIDES = {"A": ("n", "n"), "F": ("n", "m"), "C": ("p", "n"), "G": ("p", "m")}
 
 
 def _quantity(name: str) -> Sum:
-    if name == "zeta":
-        return _quantity("finite_zeros") + _quantity("infinite_zeros")
-    return of_atom(Atom(name, name in COUNTS))
+    known = quantities().get(name)
+    if known is not None and known.parts:
+        return sum(map(_quantity, known.parts), number(0))
+    return of_atom(Atom(name, known is not None and not known.infinite))
 
 
 def windowed(name: str, argument: Sum) -> Sum:
@@ -281,7 +268,7 @@ def windowed(name: str, argument: Sum) -> Sum:
         return _quantity("n") + _quantity("p")
     if name == "rank_O" and argument == _quantity("n"):
         return _quantity("n") - _quantity("unobservable_dimension")
-    return of_atom(Atom(f"{name}({argument})", name in WITH_A_WINDOW, argument))
+    return of_atom(Atom(f"{name}({argument})", name in quantities(), argument))
 
 
 def total(node: Node, env: Env | None = None) -> Sum:
@@ -333,7 +320,7 @@ def _item(node: Node, env: Env) -> Sum:
     name, index = _list(node.args[0]), total(node.args[1], env)
     if name == "left_minimal_indices" and index == number(-1):
         return _quantity("lag")
-    return of_atom(Atom(f"{name}[{index}]", name in LENGTHS))
+    return of_atom(Atom(f"{name}[{index}]", name in quantities()))
 
 
 def _gathered(node: Node, env: Env) -> Sum:
@@ -345,14 +332,14 @@ def _gathered(node: Node, env: Env) -> Sum:
         return of_atom(Atom(f"{node.op}({', '.join(map(str, parts))})", finite=all(finite) if node.op == "max" else any(finite)))
     name = _list(node.args[0])
     match node.op:
-        case "len" if name in LENGTHS:
-            more, less = (_quantity(one) if one else number(0) for one in LENGTHS[name])
+        case "len" if (known := quantities().get(name)) is not None and known.balance is not None:
+            more, less = balance(known.balance)
             return more - less
         case "sum" if name == "infinite_zero_orders":
             return _quantity("infinite_zeros")
         case "max" if name == "left_minimal_indices":
             return _quantity("lag")
-    return of_atom(Atom(f"{node.op}({name})", name in LENGTHS))
+    return of_atom(Atom(f"{node.op}({name})", name in quantities()))
 
 
 def parts_of_extremes(nodes: Iterable[Node], env: Env) -> Iterator[tuple[str, Sum, Sum]]:

@@ -2,6 +2,7 @@
 
     Row          the values, the first case of the box that has them, and how many have them, in the box and among the known cases
     Table        the rows, the first cases in the order of the box, and how much was gone through
+    add_batch    cases outside the box, added to the rows
     tabulate     the table of expressions on a box, on known cases, direct sums and drawn cases, under hypotheses
 
 The direct sums are those of two cases of the table: most numbers of a direct sum are sums or maxima of those of its parts, so that they
@@ -21,6 +22,7 @@ import numpy as np
 from ...base.errors import InvalidInput
 from ...base.progress import Progress
 from ...base.tasks import ordered
+from ..boxes.box import Box, Share, Stretch
 from ..language.by_batches import Table as Answers
 from ..language.by_batches import UndefinedAt, Values, true_of, values_of
 from ..language.evaluating import evaluate, exactly
@@ -31,7 +33,6 @@ from ..language.vocabularies import VOCABULARIES
 from ..quantities.blocks import Scalars
 from ..quantities.cases import Case, size_of
 from ..quantities.many import Many
-from .boxes import Box, Share, Stretch
 from .direct_sums import direct_sums, sum_sizes
 from .drawn_cases import drawn
 from .kept import WORTH_SHARING
@@ -81,6 +82,8 @@ class Table:
     sums_met: int = 0
     drawn: int = 0
     drawn_met: int = 0
+    sparse: int = 0
+    sparse_met: int = 0
 
     @property
     def met(self) -> int:
@@ -170,7 +173,7 @@ def _of_sizes(asked: _Asked, number: int, left: int, mine: int, of: int, tell: C
         try:
             _add_stretch(part, (number, k), stretch, asked.hypotheses, asked.columns)
         except UndefinedAt as error:
-            place = (number, k, int(stretch.places[error.index]))
+            place = (number, k, error.index)
             part.undefined = place, Undefined(str(error), stretch.batch.case(error.index))
             break
         if tell is not None:
@@ -184,8 +187,8 @@ def _add_stretch(part: _Part, at: tuple[int, int], stretch: Stretch, hypotheses:
     for node in hypotheses:
         rows = rows[true_of(node, stretch.batch, rows, part.answers.setdefault(node, Answers()))]
     for values, members in values_of(columns, stretch.batch, rows, part.answers.setdefault("columns", Answers())):
-        first = int(members[np.argmin(stretch.places[members])])
-        place, systems = (*at, int(stretch.places[first])), int(stretch.weights[members].sum())
+        first = int(members.min())
+        place, systems = (*at, first), int(stretch.weights[members].sum())
         old = part.rows.get(values)
         if old is None:
             part.rows[values] = Row(values, place, stretch.batch.case(first), systems)
@@ -223,7 +226,7 @@ def _add_sums(table: Table, rows: dict[Values, Row], hypotheses: Sequence[Node],
     for number, (_, group) in enumerate(groupby(couples, key=lambda one: one[0])):
         listed = [couple for _, couple in group]
         table.sums += len(listed)
-        table.sums_met += _add_batch(direct_sums(listed, table.box), (OUTSIDE + 1, number), rows, hypotheses, columns)
+        table.sums_met += add_batch(direct_sums(listed, table.box), (OUTSIDE + 1, number), rows, hypotheses, columns)
 
 
 def _add_drawn(table: Table, rows: dict[Values, Row], hypotheses: Sequence[Node], columns: Sequence[Node]) -> None:
@@ -233,12 +236,12 @@ def _add_drawn(table: Table, rows: dict[Values, Row], hypotheses: Sequence[Node]
             break
         batch = drawn(table.box, rng)
         table.drawn += len(batch)
-        table.drawn_met += _add_batch(batch, (OUTSIDE + 2, number), rows, hypotheses, columns)
+        table.drawn_met += add_batch(batch, (OUTSIDE + 2, number), rows, hypotheses, columns)
 
 
-def _add_batch(batch: Many, at: tuple[int, int], rows: dict[Values, Row], hypotheses: Sequence[Node], columns: Sequence[Node]) -> int:
+def add_batch(batch: Many, at: tuple[int, int], rows: dict[Values, Row], hypotheses: Sequence[Node], columns: Sequence[Node]) -> int:
     """Add cases outside the box, and return how many of them meet the hypotheses."""
-    part, each = _Part(), Stretch(batch, np.arange(len(batch)), np.ones(len(batch), dtype=np.int64))
+    part, each = _Part(), Stretch(batch, np.ones(len(batch), dtype=np.int64))
     try:
         _add_stretch(part, at, each, hypotheses, columns)
     except UndefinedAt as error:

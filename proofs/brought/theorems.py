@@ -5,7 +5,7 @@
     proof_of     the Proof of a conclusion under hypotheses, or None
 
 `faultspace verify` has Rocq check the theorems, where Rocq is installed. Here they are believed, as long as the statements in the sources
-are those that are locked; the locks tell which statements these are (proofs/theory/STATEMENTS.md).
+are those that are locked; the locks tell which statements these are (proofs/theory/locks.json).
 """
 
 from __future__ import annotations

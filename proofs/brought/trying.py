@@ -18,12 +18,12 @@ import numpy as np
 from ...base.errors import InvalidData, InvalidInput
 from ...base.progress import Progress
 from ...base.tasks import Died, as_they_come
+from ..boxes.box import Box, Share, Sizes, Stretch
 from ..language.by_batches import Table, UndefinedAt, true_of
 from ..language.invariance import invariant
 from ..language.nodes import Node
 from ..language.vocabularies import VOCABULARIES
 from ..quantities.cases import Case
-from .boxes import Box, Share, Sizes, Stretch
 from .kept import Sharing, name_of, texts
 
 
@@ -164,11 +164,11 @@ def _ask(question: Question, k: int, number: int, stretch: Stretch, part: _Part)
         failing = rows[~true_of(conclusion, stretch.batch, rows, part.tables.setdefault(conclusion, Table()))]
     except UndefinedAt as error:
         system = stretch.batch.case(error.index)
-        part.first[k] = (number, int(stretch.places[error.index])), Undefined(str(error), system)
+        part.first[k] = (number, error.index), Undefined(str(error), system)
         return
     if len(failing):
-        first = int(failing[np.argmin(stretch.places[failing])])
-        part.first[k] = (number, int(stretch.places[first])), stretch.batch.case(first)
+        first = int(failing.min())
+        part.first[k] = (number, first), stretch.batch.case(first)
 
 
 def must_have_a_value(undefined: Undefined, where: str) -> InvalidInput:

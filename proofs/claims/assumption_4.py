@@ -14,22 +14,24 @@ from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.structure.signals import excitation_matrix, hankel, persistency, simulate
 from ...exact.system.systems import ResidualSystem
+from ..boxes.box import Box, in_order
 from ..evidence.families import adversarial, random_systems
 from ..evidence.kept_kernels import kernel_once
-from ..evidence.search import Box, Facts, Flags, systems_in_order
 from ..trust import structure_certificates as make
-from ..trust.structure_certificates import Certificate
+from ..trust.structure_certificates import Certificate, sha256
 from ..verdict.verdicts import Outcome, Verdict
 from ..verdict.workbench import Workbench, accepted, counterexample
 
 # -- the condition on the data ---------------------------------------------------------------------------------------------
 
+VALID = "observable and left_invertible and delay_unknown <= 1"  # n = s = 1 is at least both delays
+
 
 def excitation_at_s(bench: Workbench) -> Outcome:
     """[X; V_s] of full row rank at the s of the statement is not enough: this finds the smallest trajectory whose gap of R is wrong."""
-    box = Box(total=4, largest_n=1, largest_m=1, largest_p=2)
+    box = Box(n=(1, 1), m=(1, 1), p=(1, 2), total=4)
     samples = 5
-    for system in systems_in_order(box, _valid):
+    for system in in_order(box, VALID):
         for x, *v in product((-1, 0, 1), repeat=1 + samples):
             x0, faults = Matrix.of([[x]]), Matrix.of([[value] for value in v])
             data = simulate(system, x0, faults)
@@ -43,11 +45,6 @@ def excitation_at_s(bench: Workbench) -> Outcome:
     return Outcome(Verdict.ERROR, "no counterexample in the box")
 
 
-def _valid(facts: Facts) -> Flags:
-    """Whether systems are observable and left-invertible, and n = s = 1 is at least both delays."""
-    return facts.observable & facts.left_invertible & (facts.delay_unknown_state <= 1)
-
-
 def excitation_at_s_plus_1(bench: Workbench) -> Outcome:
     """Where [X; V_(s+1)] has full row rank, R_s and R_(s+1) have the ranks of the model, so that the gap is m for s >= lag."""
     return _on_data(bench, excited=True)
@@ -55,9 +52,9 @@ def excitation_at_s_plus_1(bench: Workbench) -> Outcome:
 
 def excitation_necessary(bench: Workbench) -> Outcome:
     """Is full row rank of [X; V_(s+1)] needed for the gap? A system with a mode that is never excited says no."""
-    box = Box(total=4, largest_n=1, largest_m=1, largest_p=2)
+    box = Box(n=(1, 1), m=(1, 1), p=(1, 2), total=4)
     samples = 6
-    for system in systems_in_order(box, lambda f: _valid(f) & ~f.controllable):
+    for system in in_order(box, VALID, "not controllable"):
         for v in product((0, 1, -1), repeat=samples):
             x0, faults, s = Matrix.of([[0]]), Matrix.of([[value] for value in v]), 1
             data = simulate(system, x0, faults)
@@ -81,7 +78,7 @@ def _on_data(bench: Workbench, *, excited: bool) -> Outcome:
     systems = [s for _, s in adversarial() if 0 < s.n <= 3] + list(
         islice(random_systems(QQ, 4000, seed=5, largest=3), 400 if bench.full else 30)
     )
-    tried = deficient = count = 0
+    tried, deficient, decided = 0, 0, set[str]()
     headline: tuple[Certificate, ...] = ()
     for system in systems:
         kernel = kernel_once(system)
@@ -97,15 +94,16 @@ def _on_data(bench: Workbench, *, excited: bool) -> Outcome:
         certificates = accepted(_gap_certificates(system, x0, v, s))
         gap = certificates[2]["statement"]["rank"] - certificates[1]["statement"]["rank"]
         if gap != system.m:
-            return Outcome(Verdict.REFUTED, f"fails on {system}, x(0) = {x0}, v = {v}, s = {s}", certificates, len(certificates))
-        tried, count, deficient = tried + 1, count + len(certificates), deficient + (not full)
+            return Outcome(Verdict.REFUTED, f"fails on {system}, x(0) = {x0}, v = {v}, s = {s}", certificates)
+        tried, deficient = tried + 1, deficient + (not full)
+        decided.update(map(sha256, certificates))
         headline = headline or certificates
     if not tried:
         return Outcome(Verdict.ERROR, "no trajectory meets the hypotheses")
     note = "" if excited else f", {deficient} of them with [X; V_(s+1)] rank-deficient"
     which = f"{tried} exact trajectories of left-invertible systems over Q, named and random, at s = max(lag, 1)"
     words = f"no counterexample found in {which}{note}"
-    return Outcome(Verdict.CERTIFIED, words, headline, count)
+    return Outcome(Verdict.CERTIFIED, words, headline, frozenset(decided))
 
 
 def _gap_certificates(system: ResidualSystem, x0: Matrix, v: Matrix, s: int) -> Iterable[Certificate]:

@@ -10,8 +10,6 @@ import random
 from collections.abc import Iterator
 from itertools import islice
 
-import numpy as np
-
 from ...exact.algebra.fields import QQ, PrimeField
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.pairs.bad_variety import bad_set
@@ -19,11 +17,11 @@ from ...exact.pairs.polynomial import Exceptional, judge
 from ...exact.pairs.witnesses import BadPair, bad_pair
 from ...exact.structure.fault_columns import with_pair
 from ...exact.system.systems import ResidualSystem
+from ..boxes.box import Box, in_order
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.families import adversarial, random_systems
 from ..evidence.kept_kernels import kernel_once
 from ..evidence.pairs_by_polynomial import pencil_of
-from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, Unprovable, accept
 from ..verdict.verdicts import Outcome, Verdict
@@ -60,32 +58,31 @@ def full_rank(bench: Workbench) -> Outcome:
 def codimension_two(bench: Workbench) -> Outcome:
     """Where (A, C) is observable, r >= 2 and zeta >= 1, the codimension is at least two: some line of P meets no bad one."""
     tried = [pencil for pencil in _pencils(bench) if pencil.observable and pencil.columns >= 2 and pencil.zeta >= 1]
-    count, missed = 0, 0
+    decided, missed = list[str](), 0
     headline: tuple[Certificate, ...] = ()
     for done, pencil in enumerate(tried):
         bench.progress("looking for lines without a bad P", done, len(tried))
         stated = bad_set(pencil).codimension
         if stated is not None and stated < 2:
             certificates = accepted(_kernel(pencil))
-            return Outcome(Verdict.REFUTED, f"codimension {stated} for {pencil.system}", certificates, len(certificates))
+            return Outcome(Verdict.REFUTED, f"codimension {stated} for {pencil.system}", certificates)
         line = _line(pencil)
         if line is None:
             missed += 1
             continue
-        accept(line)
-        count += 1
+        decided.append(accept(line))
         headline = headline or (line, *accepted(_kernel(pencil)))
-    if not count:
+    if not decided:
         return Outcome(Verdict.ERROR, "no line was found for any system")
     note = f"; for {missed} more by counting parameters alone" if missed else ""
-    words = f"on {count} systems, named and random over Q and GF(10007), by a line each{note}"
-    return Outcome(Verdict.CERTIFIED, words, headline, count + 2)
+    words = f"on {len(decided)} systems, named and random over Q and GF(10007), by a line each{note}"
+    return Outcome(Verdict.CERTIFIED, words, headline, frozenset(decided))
 
 
 def codimension_unobservable(bench: Workbench) -> Outcome:
     """The codimension is claimed to be at least two when zeta >= 1, whether (A, C) is observable or not."""
-    box = Box(total=3, largest_n=1, largest_m=1, largest_p=1)
-    for system in systems_in_order(box, lambda f: np.asarray(~f.observable & f.left_invertible)):
+    box = Box(n=(1, 1), m=(1, 1), p=(1, 1), total=3)
+    for system in in_order(box, "not observable and left_invertible"):
         pencil = pencil_of(system)
         size = bad_set(pencil).codimension
         if pencil.zeta and size == 1:

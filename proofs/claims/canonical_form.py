@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from ...exact.pairs.canonical_form import behavior_name, fault_class, with_feedback
 from ...exact.structure.fault_columns import fault_space
 from ...exact.system.systems import ResidualSystem
+from ..boxes.box import Box, in_order
 from ..evidence.alternatives import AlternativeEvidence, PairEvidence, comparison_certificate, ranked
 from ..evidence.kept_kernels import kernel_once
-from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict
@@ -26,8 +24,8 @@ def same_a_c(bench: Workbench) -> Outcome:
 
 def any_a_c(bench: Workbench) -> Outcome:
     """The same is claimed for different (A, C): equal behaviours have equal Z. This finds the smallest system and feedback that say no."""
-    box = Box(total=4, largest_n=1, largest_m=1, largest_p=2)
-    for system in systems_in_order(box, lambda f: np.asarray(f.observable & f.controllable & f.left_invertible)):
+    box = Box(n=(1, 1), m=(1, 1), p=(1, 2), total=4)
+    for system in in_order(box, "observable and controllable and left_invertible"):
         kernel = kernel_once(system)
         for similar in (system, ResidualSystem(system.A, -system.F, -system.C, system.G)):
             for gain in (0, 1, -1):
@@ -42,8 +40,8 @@ def any_a_c(bench: Workbench) -> Outcome:
 
 def feedback(bench: Workbench) -> Outcome:
     """B is claimed to name (A, C): but feedback of the state into the fault gives a system with other A and C and the same behaviour."""
-    box = Box(total=4, largest_n=1, largest_m=1, largest_p=2)
-    for system in systems_in_order(box, lambda f: np.asarray(f.observable & f.controllable & f.left_invertible)):
+    box = Box(n=(1, 1), m=(1, 1), p=(1, 2), total=4)
+    for system in in_order(box, "observable and controllable and left_invertible"):
         kernel = kernel_once(system)
         other = kernel_once(with_feedback(system, [[1]]))
         if (other.system.A, other.system.C) != (system.A, system.C):

@@ -50,7 +50,7 @@ def _certificates() -> dict[str, Certificate]:
 def _outcome(holds: bool, words: str, *names: str) -> Outcome:
     found = _certificates()
     certificates = tuple(found[name] for name in names)
-    return Outcome(Verdict.CERTIFIED if holds else Verdict.REFUTED, words, certificates, len(certificates))
+    return Outcome(Verdict.CERTIFIED if holds else Verdict.REFUTED, words, certificates)
 
 
 def one_fault(bench: Workbench) -> Outcome:

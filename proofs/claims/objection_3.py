@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ...exact.system.systems import ResidualSystem
+from ..boxes.box import Box, in_order
 from ..evidence.families import paper_example
 from ..evidence.questions import MINIMAL
-from ..evidence.search import Box, smallest
 from ..verdict.verdicts import Outcome, Verdict
 from ..verdict.workbench import Workbench, counterexample
 from .common import gap_is_m_from, zeros
 
-BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
+BOX = Box(n=(1, 2), m=(1, 2), p=(1, 2), total=4)
 
 
 def controllability_needed(bench: Workbench) -> Outcome:
@@ -22,7 +20,8 @@ def controllability_needed(bench: Workbench) -> Outcome:
         e = bench.examined(system, MINIMAL)
         return not e.controllable and e.observable and e.left_invertible and gap_is_m_from(lambda e: e.system.n)(e)
 
-    found = smallest(BOX, lambda f: np.asarray(f.observable & f.left_invertible & ~f.controllable), holds)
+    sought = in_order(BOX, "observable and left_invertible and not controllable", reduced=True)
+    found = next((system for system in sought if holds(system)), None)
     if found is None:
         return Outcome(Verdict.ERROR, "no uncontrollable system in the box with the right gap")
     example = paper_example().residual

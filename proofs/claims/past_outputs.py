@@ -1,11 +1,11 @@
-"""past-outputs: with past outputs among the instruments, as every packaged tool has them, a coloured fault biases the estimate."""
+"""past-outputs: with past outputs among the instruments, as tools have them, a coloured fault biases the estimate."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from ...exact.limits.experiments import Experiment
-from ..evidence.experiments import experiment_of
+from ..evidence.experiments import Drawn, experiment_of
 from ..evidence.kept_experiments import WITHOUT_RANK
 from ..verdict.verdicts import Outcome
 from ..verdict.workbench import Workbench
@@ -28,7 +28,7 @@ def coloured_fault(bench: Workbench) -> Outcome:
 
 def white_fault(bench: Workbench) -> Outcome:
     """With u and v white and independent and no other noise, it does lie there."""
-    return certify_limits([e for e in bench.limits if e.origin == "u and v white and independent"], lambda e: e.past_outputs_within)
+    return certify_limits([e for e in bench.limits if e.origin == Drawn.INDEPENDENT_WHITE], lambda e: e.past_outputs_within)
 
 
 def past_inputs(bench: Workbench) -> Outcome:

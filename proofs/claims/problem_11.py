@@ -4,23 +4,21 @@ from __future__ import annotations
 
 from itertools import product
 
-import numpy as np
-
 from ...exact.algebra.matrices import Matrix
 from ...exact.structure.kernel_rows import column_conditions
 from ...exact.system.systems import ResidualSystem
+from ..boxes.box import Box, in_order
 from ..evidence.kept_kernels import kernel_once
-from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..verdict.verdicts import Outcome, Verdict
 from ..verdict.workbench import Workbench, counterexample
 
-BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
+BOX = Box(n=(1, 2), m=(1, 2), p=(1, 2), total=4)
 
 
 def first_block_column(bench: Workbench) -> Outcome:
     """Is it enough that N_s annihilates the first block column of T_s(z)? The smallest system and column that say no."""
-    for system in systems_in_order(BOX, lambda f: np.asarray(f.observable & f.left_invertible)):
+    for system in in_order(BOX, "observable and left_invertible"):
         kernel = kernel_once(system)
         window = kernel.lag + 1
         rows = kernel.rows_within(window)

@@ -19,7 +19,7 @@ from ...exact.limits.hidden_states import hides_a_state
 from ...exact.limits.moesp import limit
 from ...exact.limits.moments import covariances
 from ...exact.parametric.leads import lead_identities
-from ..evidence.experiments import NILPOTENT, Drive, LimitEvidence, examine_experiment, experiments_in_order, leading
+from ..evidence.experiments import NILPOTENT, Drawn, Drive, LimitEvidence, examine_experiment, experiments_in_order, leading
 from ..evidence.kept_experiments import WITHOUT_RANK, kept
 from ..evidence.seasonal_inputs import BOX as BOX_OF_PERIOD
 from ..evidence.seasonal_inputs import in_order, seasonal
@@ -52,7 +52,7 @@ def white_a_c(bench: Workbench) -> Outcome:
 
 def white_a_c_seen(bench: Workbench) -> Outcome:
     """With u white and v leading it, the limit lies in the range of O_s; it is all of it iff (A, B + sum A^j F phi_j) is controllable."""
-    records = [e for e in bench.limits if e.origin == "u white, v leads it" and e.observable and e.long_past]
+    records = [e for e in bench.limits if e.origin == Drawn.WHITE_LED and e.observable and e.long_past]
     return certify_limits(records, lambda e: e.within and e.equal == e.seen_controllable)
 
 
@@ -76,7 +76,7 @@ def white_b_d_fails(bench: Workbench) -> Outcome:
 
 def white_b_d_seen(bench: Workbench) -> Outcome:
     """With u white and the true A, C, output error gives B + sum A^j F phi_j and D + G phi_0 + sum over j >= 1 of C A^(j-1) F phi_j."""
-    records = [e for e in bench.limits if e.origin in ("u white, v leads it", "u white, v(k) = u(k)") and e.state_inputs is not None]
+    records = [e for e in bench.limits if e.origin in (Drawn.WHITE_LED, Drawn.SIMULTANEOUS) and e.state_inputs is not None]
     return certify_limits(records, lambda e: e.state_inputs == _seen(e))
 
 
@@ -89,7 +89,7 @@ def coloured_a_c(bench: Workbench) -> Outcome:
 
 def autoregressive(bench: Workbench) -> Outcome:
     """With u autoregressive of order at most s and v leading it, the limit still lies in the range of O_s."""
-    return certify_limits([e for e in bench.limits if e.origin.startswith("u autoregressive")], lambda e: e.within)
+    return certify_limits([e for e in bench.limits if e.origin == Drawn.AUTOREGRESSIVE_LED], lambda e: e.within)
 
 
 def autoregressive_longer(bench: Workbench) -> Outcome:
@@ -101,7 +101,7 @@ def autoregressive_longer(bench: Workbench) -> Outcome:
 
 def lead_one(bench: Workbench) -> Outcome:
     """With G = 0, v(k) = u(k+1) and u of any colour, the limit still lies in the range of O_s."""
-    return certify_limits([e for e in bench.limits if e.origin == "u coloured, v(k) = u(k+1), G = 0"], lambda e: e.within)
+    return certify_limits([e for e in bench.limits if e.origin == Drawn.LEAD_ONE], lambda e: e.within)
 
 
 def lead_one_with_feedthrough(bench: Workbench) -> Outcome:

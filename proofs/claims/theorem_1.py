@@ -2,29 +2,27 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import cache
 
-import numpy as np
-
-from ...exact.algebra.matrices import column_basis
+from ...exact.algebra.matrices import Matrix, column_basis
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import window_matrix
+from ..boxes.box import Box, grouped
 from ..evidence.alternatives import PAIRS, PairEvidence, comparison_certificate
 from ..evidence.corpus import CORPUS
 from ..evidence.families import shift_registers
 from ..evidence.kept_kernels import kernel_once
 from ..evidence.parametric import inclusion_claim
 from ..evidence.questions import RANKS
-from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
-from ..trust.structure_certificates import Certificate
+from ..trust.structure_certificates import Certificate, sha256
 from ..verdict.verdicts import Outcome, Verdict
-from ..verdict.workbench import Workbench, accepted, certify_records, counterexample
+from ..verdict.workbench import Workbench, accepted, all_accepted, certify_records, counterexample
 from .common import identity
 
-BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
+BOX = Box(n=(1, 2), m=(1, 2), p=(1, 2), total=5)
 
 
 def n_samples(bench: Workbench) -> Outcome:
@@ -51,10 +49,10 @@ def n_plus_1_samples(bench: Workbench) -> Outcome:
     if longer:
         words = f"{longer[0].system} has a kernel row of degree {longer[0].kernel.lag}"
         certificates = accepted(_of_one(longer[0].system))
-        return Outcome(Verdict.REFUTED, words, certificates, len(certificates))
-    total, count = sum(e.weight for e in systems), sum(e.accepted for e in systems)
+        return Outcome(Verdict.REFUTED, words, certificates)
+    total = sum(e.weight for e in systems)
     words = f"{outcome.evidence}; by kernel rows, none of degree above n, every pair of the {total} systems of the corpus"
-    return replace(outcome, evidence=words, accepted=outcome.accepted + count)
+    return replace(outcome, evidence=words, decided=outcome.decided | all_accepted(systems))
 
 
 def lag_plus_1(bench: Workbench) -> Outcome:
@@ -78,10 +76,10 @@ def sharp(bench: Workbench) -> Outcome:
         idle, driven = (kernel_once(system) for system in shift_registers(n))
         pair = [make.window_equality(idle, driven, n), comparison_certificate(idle, driven)]
         if pair[1]["statement"]["window"] != n + 1:
-            return Outcome(Verdict.REFUTED, f"the shift registers of length {n} differ elsewhere", accepted(pair), 2)
+            return Outcome(Verdict.REFUTED, f"the shift registers of length {n} differ elsewhere", accepted(pair))
         certificates += [*pair, make.left_invertible(idle), make.left_invertible(driven)]
     words = f"by one witness for every n = 1..{largest}: the shift register of length n with F = 0 against F = e_n"
-    return Outcome(Verdict.CERTIFIED, words, accepted(certificates)[:8], len(certificates))
+    return Outcome(Verdict.CERTIFIED, words, accepted(certificates)[:8], frozenset(map(sha256, certificates)))
 
 
 def parametric(bench: Workbench) -> Outcome:
@@ -92,25 +90,19 @@ def parametric(bench: Workbench) -> Outcome:
 
 def _smallest_pair(*, same_A_and_C: bool) -> Outcome:
     """The first system of the box with a partner equal on n samples but not on n + 1 makes it REFUTED, with its first partner."""
-    for dimensions in BOX.dimensions():
-        n, m, p = dimensions
-        box = Box(total=sum(dimensions), largest_n=n, largest_m=m, largest_p=p, least_m=m)
-        systems = [
-            s
-            for s in systems_in_order(box, lambda f: np.asarray(f.observable & f.controllable & f.left_invertible))
-            if (s.n, s.m, s.p) == dimensions
-        ]
-        groups: dict[object, list[ResidualSystem]] = defaultdict(list)
-        for system in systems:
-            key = (column_basis(window_matrix(system, n)), (system.A, system.C) if same_A_and_C else None)
-            groups[key].append(system)
-        longer = {system: column_basis(window_matrix(system, n + 1)) for group in groups.values() if len(group) > 1 for system in group}
-        partners = {system: group for group in groups.values() for system in group}
-        for first in systems:
-            second = next((s for s in partners[first] if longer.get(s) != longer.get(first)), None)
-            if second is not None:
-                scope = f"{BOX}, both of the same dimensions, observable, controllable, left-invertible"
-                return counterexample(f"{first} against {second}", scope, _pair_certificates(first, second))
+
+    def key(system: ResidualSystem) -> object:
+        return column_basis(window_matrix(system, system.n)), (system.A, system.C) if same_A_and_C else None
+
+    @cache
+    def longer(system: ResidualSystem) -> Matrix:
+        return column_basis(window_matrix(system, system.n + 1))
+
+    for first, group in grouped(BOX, key, "observable and controllable and left_invertible"):
+        second = next((other for other in group if longer(other) != longer(first)), None) if len(group) > 1 else None
+        if second is not None:
+            scope = f"{BOX}, both of the same dimensions, observable, controllable, left-invertible"
+            return counterexample(f"{first} against {second}", scope, _pair_certificates(first, second))
     return Outcome(Verdict.ERROR, "no counterexample in the box")
 
 

@@ -4,22 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from ...exact.algebra.matrices import column_basis, solve_left
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import reachability_matrix
+from ..boxes.box import Box, in_order
 from ..evidence.corpus import Evidence
 from ..evidence.parametric import zero_count_claim
 from ..evidence.questions import MINIMAL, ZEROS
-from ..evidence.search import Box, smallest
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome
 from ..verdict.workbench import Workbench, certify, counterexample
 from .common import identity, zeros
 
-BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
+BOX = Box(n=(1, 2), m=(1, 2), p=(1, 2), total=4)
 
 
 def transfer_function_zeros(bench: Workbench) -> Outcome:
@@ -32,7 +30,8 @@ def transfer_function_zeros(bench: Workbench) -> Outcome:
         ranks = statements["window-ranks"]["window_ranks"]
         return any(ranks[s - 1] != system.n + s * system.m - zeta for s in range(max(system.n, 1), len(ranks) + 1))
 
-    found = smallest(BOX, lambda f: np.asarray(f.observable & f.left_invertible & ~f.controllable), confirm)
+    sought = in_order(BOX, "observable and left_invertible and not controllable", reduced=True)
+    found = next((system for system in sought if confirm(system)), None)
     if found is None:
         return certify(
             bench,

@@ -6,17 +6,14 @@ Part (ii) is decided for each P: the pair is equivalent iff its normal rank is t
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from itertools import product
-
-import numpy as np
 
 from ...exact.algebra.matrices import Matrix, column_basis
 from ...exact.structure.behavior import compare
 from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.structure.kernel_rows import KernelRepresentation
+from ..boxes.box import Box, in_order, matrices_in_order
 from ..evidence.alternatives import AlternativeEvidence, comparison_certificate, ranked
 from ..evidence.kept_kernels import kernel_once
-from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict
@@ -24,7 +21,7 @@ from ..verdict.workbench import Workbench, certify_records, counterexample, witn
 from .one_determinant import show as show_pair
 from .one_determinant import words as pair_words
 
-BOX = Box(total=5, largest_n=1, largest_m=2, largest_p=2)
+BOX = Box(n=(1, 1), m=(1, 2), p=(1, 2), total=5)
 
 
 def every_p(bench: Workbench) -> Outcome:
@@ -80,13 +77,10 @@ def _smallest_bad_pair(
 
     Every P with the same column space gives the same pair, up to a change of the faults, so that one of them is looked at.
     """
-    for system in systems_in_order(BOX, lambda f: np.asarray(f.observable & f.left_invertible)):
+    for system in in_order(BOX, "observable and left_invertible"):
         kernel = kernel_once(system)
         space, seen = fault_space(kernel, window(kernel)), set[Matrix]()
-        for entries in product((-1, 0, 1), repeat=space.dimension * system.m):
-            P = Matrix.of(
-                [list(entries[i * system.m : (i + 1) * system.m]) for i in range(space.dimension)], shape=(space.dimension, system.m)
-            )
+        for P in matrices_in_order(space.dimension, system.m):
             columns = column_basis(P)
             if columns.ncols < system.m or columns in seen:
                 continue

@@ -9,11 +9,11 @@ from ...exact.algebra.fields import QQ
 from ...exact.pairs.assignment import recoverable_pair
 from ...exact.pairs.polynomial import Exceptional
 from ...exact.system.systems import ResidualSystem
+from ..boxes.box import Box, in_order
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.families import adversarial, random_systems
 from ..evidence.kept_kernels import kernel_once
 from ..evidence.pairs_by_polynomial import PairByPolynomial, pencil_of
-from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
 from ..verdict.verdicts import Outcome, Verdict
@@ -33,8 +33,8 @@ def unobservable(bench: Workbench) -> Outcome:
 
 def without_observability(bench: Workbench) -> Outcome:
     """The same is claimed without observability; but an unobservable mode is a zero of every pair."""
-    box = Box(total=3, largest_n=1, largest_m=1, largest_p=1)
-    for system in systems_in_order(box, lambda f: ~f.observable & f.left_invertible):
+    box = Box(n=(1, 1), m=(1, 1), p=(1, 1), total=3)
+    for system in in_order(box, "not observable and left_invertible"):
         pencil = pencil_of(system)
         if pencil.zeta:
             certificates = [make.finite_zeros(system), make.matrix_rank("observability", system), *_space(pencil)]
@@ -47,20 +47,18 @@ def recoverable(bench: Workbench) -> Outcome:
     """Every system has an equivalent pair with r faults whose v(0) is determined by the outputs, whatever the initial state is."""
     systems = [s for _, s in adversarial() if s.n <= 4] + list(islice(random_systems(QQ, 600, seed=9), 400 if bench.full else 20))
     headline: tuple[Certificate, ...] = ()
-    count = 0
+    decided = set[str]()
     for done, system in enumerate(systems):
         bench.progress("making pairs whose fault needs no initial state", done, len(systems))
         found = recoverable_pair(pencil_of(system))
         kernels = kernel_once(system), kernel_once(found.assignment.system)
         certificates = comparison_certificate(*kernels), make.inversion_delay(kernels[1], known_state=False)
-        for certificate in certificates:
-            accept(certificate)
-        count += len(certificates)
+        decided.update(map(accept, certificates))
         if certificates[0]["kind"] != "behaviour-equality" or certificates[1]["statement"]["delay"] is None:
-            return Outcome(Verdict.REFUTED, f"fails on {system}", accepted(certificates), count)
+            return Outcome(Verdict.REFUTED, f"fails on {system}", accepted(certificates), frozenset(decided))
         headline = headline if headline or not (system.n and system.m) else certificates
     message = f"no counterexample found: one pair each for {len(systems)} systems, named and random"
-    return Outcome(Verdict.CERTIFIED, message, headline, count)
+    return Outcome(Verdict.CERTIFIED, message, headline, frozenset(decided))
 
 
 def _placed(bench: Workbench, applies: object) -> Outcome:

@@ -4,22 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from ...exact.algebra.matrices import rank
 from ...exact.structure.fault_columns import fault_space
 from ...exact.system.systems import ResidualSystem
+from ..boxes.box import Box
 from ..evidence.corpus import Evidence
 from ..evidence.kept_kernels import kernel_once
 from ..evidence.questions import OBSERVABILITY, RANKS, SPACE, ZEROS
-from ..evidence.search import Box
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome
 from ..verdict.workbench import Workbench, certify, refute
 from .common import zeros
 
-BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
+BOX = Box(n=(1, 2), m=(1, 2), p=(1, 2), total=4)
 
 
 def fault_matrices(bench: Workbench) -> Outcome:
@@ -27,7 +25,7 @@ def fault_matrices(bench: Workbench) -> Outcome:
     return refute(
         bench,
         BOX,
-        lambda f: np.asarray(f.observable & f.left_invertible & ~f.G.any(axis=(1, 2))),
+        "observable and left_invertible and is_zero(G)",
         (RANKS, OBSERVABILITY, SPACE),
         lambda e: _applies(e) and e.observable,
         _pinned,

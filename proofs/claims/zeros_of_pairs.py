@@ -29,5 +29,5 @@ def split(bench: Workbench) -> Outcome:
         fewest, most = (choose(groups[system], key=lambda e: len(e.zero_polynomial)) for choose in (min, max))
         if len(fewest.zero_polynomial) < len(most.zero_polynomial):
             texts = f"{words(fewest)} has {len(fewest.zero_polynomial) - 1} finite zeros, {words(most)} has {len(most.zero_polynomial) - 1}"
-            return counterexample(texts, "n+m+p among the systems whose pairs were judged", [*show(fewest), *show(most)])
+            return counterexample(texts, "n + m + p among the systems whose pairs were judged", [*show(fewest), *show(most)])
     return certify_records(records, [], words, show)

@@ -1,1 +1,1 @@
-"""What a verdict rests on besides theorems: families of systems and experiments, searches, and the attacks on a statement."""
+"""What a verdict rests on besides theorems: families of systems and experiments, and the attacks on a statement."""

@@ -45,7 +45,7 @@ class PairEvidence:
     first_difference: int | None
     lags: tuple[int, int]
     normal_ranks: tuple[int, int]
-    accepted: int
+    accepted: frozenset[str]
 
 
 @dataclass(frozen=True)
@@ -61,16 +61,17 @@ class AlternativeEvidence:
     alternative_normal_rank: int
     full_column_rank: bool
     left_invertible: bool
-    accepted: int
+    accepted: frozenset[str]
 
 
 @dataclass(frozen=True)
 class Ranked:
-    """A system by its kernel representation, with what the accepted certificate of its window ranks states."""
+    """A system by its kernel representation, with what the certificate of its window ranks states, accepted under this SHA-256."""
 
     kernel: KernelRepresentation
     left_minimal_indices: tuple[int, ...]
     normal_rank: int
+    accepted: str
 
     @property
     def lag(self) -> int:
@@ -83,19 +84,25 @@ def ranked(system: ResidualSystem) -> Ranked:
     """Return the kernel representation of a system, its window ranks certified."""
     kernel = kernel_once(system)
     certificate = make.window_ranks(kernel)
-    accept(certificate)
-    statement = certificate["statement"]
-    return Ranked(kernel, tuple(statement["left_minimal_indices"]), statement["normal_rank"])
+    decided, statement = accept(certificate), certificate["statement"]
+    return Ranked(kernel, tuple(statement["left_minimal_indices"]), statement["normal_rank"], decided)
+
+
+@dataclass(frozen=True)
+class Basis:
+    """The rows of a basis of a fault space, as a certificate states them, accepted under this SHA-256."""
+
+    rows: Matrix
+    accepted: str
 
 
 @lru_cache(maxsize=1 << 13)
-def fault_space_basis(system: ResidualSystem) -> Matrix:
+def fault_space_basis(system: ResidualSystem) -> Basis:
     """Return the rows of a basis of the fault space, as an accepted certificate states them."""
     kernel = ranked(system).kernel
     certificate = make.fault_space(kernel, fault_space(kernel))
-    accept(certificate)
-    basis = certificate["statement"]["basis"]
-    return Matrix.of(basis, system.field, shape=(len(basis), system.n + system.p))
+    decided, basis = accept(certificate), certificate["statement"]["basis"]
+    return Basis(Matrix.of(basis, system.field, shape=(len(basis), system.n + system.p)), decided)
 
 
 def comparison_certificate(first: KernelRepresentation, second: KernelRepresentation) -> Certificate:
@@ -109,46 +116,55 @@ def comparison_certificate(first: KernelRepresentation, second: KernelRepresenta
     return make.behaviour_difference(second.system, first)
 
 
+@dataclass(frozen=True)
+class Comparison:
+    """The least number of samples on which two behaviours differ, None where they are equal, by a certificate accepted under this
+    SHA-256."""
+
+    first_difference: int | None
+    accepted: str
+
+
 @lru_cache(maxsize=1 << 13)
-def compared(first: ResidualSystem, second: ResidualSystem) -> int | None:
-    """Return the least number of samples on which the behaviours differ, None where they are equal, as an accepted certificate states it.
+def compared(first: ResidualSystem, second: ResidualSystem) -> Comparison:
+    """Return on how many samples the behaviours differ, as an accepted certificate states it.
 
     It is found once: different (F', G'), and different P, come to the same second system.
     """
     certificate = comparison_certificate(kernel_once(first), kernel_once(second))
-    accept(certificate)
-    window: int | None = certificate["statement"].get("window")
-    return window
+    decided = accept(certificate)
+    return Comparison(certificate["statement"].get("window"), decided)
 
 
 def examine_pair(origin: str, first: ResidualSystem, second: ResidualSystem, weight: int = 1) -> PairEvidence:
     """Return the evidence on two systems: equality or the first difference, and their lags, each certified."""
     one, other = ranked(first), ranked(second)
-    window = compared(first, second)
+    comparison = compared(first, second)
+    window = comparison.first_difference
     earlier = 0 if window is None else window - 1  # no samples are the same ones, whatever the systems are
+    decided = frozenset({comparison.accepted, one.accepted, other.accepted})
     if earlier:
-        accept(make.window_equality(one.kernel, other.kernel, earlier))
+        decided |= {accept(make.window_equality(one.kernel, other.kernel, earlier))}
     lags, ranks = (one.lag, other.lag), (one.normal_rank, other.normal_rank)
-    # the comparison, the window ranks of both, and where there is a difference that there is none before
-    return PairEvidence(origin, first, second, weight, window, lags, ranks, 4 if earlier else 3)
+    return PairEvidence(origin, first, second, weight, window, lags, ranks, decided)
 
 
 def examine_alternative(origin: str, system: ResidualSystem, alternative: ResidualSystem, weight: int = 1) -> AlternativeEvidence:
     """Return the evidence on other fault matrices: whether they make the same outputs, and whether they lie in the fault space."""
     one, other, basis = ranked(system), ranked(alternative), fault_space_basis(system)
-    first_difference = compared(system, alternative)
+    comparison = compared(system, alternative)
     columns = stacked(alternative.F, alternative.G)
     return AlternativeEvidence(
         origin=origin,
         system=system,
         alternative=alternative,
         weight=weight,
-        equal=first_difference is None,
-        in_space=rank(stacked(basis, columns.transposed())) == basis.nrows,
+        equal=comparison.first_difference is None,
+        in_space=rank(stacked(basis.rows, columns.transposed())) == basis.rows.nrows,
         alternative_normal_rank=other.normal_rank,
         full_column_rank=rank(columns) == alternative.m,
         left_invertible=one.normal_rank == system.m,
-        accepted=4,  # the comparison, the fault space, and the window ranks of both
+        accepted=frozenset({comparison.accepted, basis.accepted, one.accepted, other.accepted}),
     )
 
 

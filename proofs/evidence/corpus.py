@@ -26,7 +26,6 @@ from ...exact.structure.kernel_rows import KernelRepresentation
 from ...exact.system.systems import ResidualSystem
 from .exhaustive import orbits
 from .families import adversarial, paper_example, random_systems
-from .kept_kernels import kernel_once
 from .material import Material
 from .orbits_by_stages import orbits_by_stages
 from .questions import (
@@ -82,14 +81,14 @@ class Evidence:
     def asked(self, questions: Questions) -> Evidence:
         """Return the evidence with the answers to these questions and no other; those that are not there yet are found now."""
         missing = [question for question in questions if question not in self.answers]
-        found = {**self.answers, **{question: answered(question, kernel_once(self.system)) for question in missing}}
+        found = {**self.answers, **{question: answered(question, self.system) for question in missing}}
         answers = {question: found[question] for question in questions}
         return Evidence(self.origin, self.system, self.weight, answers)
 
     @property
-    def accepted(self) -> int:
-        """This is the number of certificates, all of them accepted, that the answers rest on."""
-        return sum(answer.accepted for answer in self.answers.values())
+    def accepted(self) -> frozenset[str]:
+        """These are the certificates that the answers rest on, all of them accepted, by their SHA-256."""
+        return frozenset().union(*(answer.accepted for answer in self.answers.values()))
 
     @property
     def kernel(self) -> KernelRepresentation:

@@ -4,7 +4,7 @@
     LIMITS                  those of an effort, in families named after how v and u belong together
     examine_experiment      the evidence on one experiment
     first_look              the same before the checker has seen the certificates
-    FAMILIES                the name of a family, and how an experiment of it is drawn
+    Drawn, FAMILIES         the families, and how an experiment of each is drawn
     nilpotent_points        one (A, B) for each of several spectra of u, at which the limit of PI-MOESP is to have full rank
     experiments_in_order    small experiments, for the smallest counterexample
 
@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from enum import StrEnum
 from fractions import Fraction
 from itertools import product
 from random import Random
@@ -37,6 +38,24 @@ from .material import Material
 from .seasonal_inputs import in_order, seasonal
 
 Rows = list[list[str]]
+
+
+class Drawn(StrEnum):
+    """The families of experiments that are drawn, each with its words."""
+
+    INDEPENDENT = "v independent of u"
+    INDEPENDENT_AUTOREGRESSIVE = "v independent of u, u autoregressive of order at most s"
+    DEGENERATE = "v independent of u, poles and spectra degenerate"
+    PERIODIC = "v independent of u, u of period 3"
+    WHITE_LED = "u white, v leads it"
+    SIMULTANEOUS = "u white, v(k) = u(k)"
+    MOVING_AVERAGE_LED = "u a moving average, v leads it"
+    LEAD_ONE = "u coloured, v(k) = u(k+1), G = 0"
+    AUTOREGRESSIVE_LED = "u autoregressive of order at most s, v leads it"
+    FEEDBACK = "u white, v(k) = K u(k-1)"
+    FEEDBACK_HIDDEN = "u white, v(k) = K u(k-1), F K = A z and G K = C z"
+    FEEDBACK_UNSEEN_IN_INPUTS = "u white, v(k) = K u(k-1), B and D right by output error"
+    INDEPENDENT_WHITE = "u and v white and independent"
 
 
 @dataclass(frozen=True)
@@ -71,7 +90,7 @@ class LimitEvidence:
     state: StatePart | None
     predicted: bool
     weight: int
-    accepted: int
+    accepted: frozenset[str]
 
     @property
     def uncorrelated(self) -> bool:
@@ -114,11 +133,10 @@ def examine_experiment(origin: str, experiment: Experiment) -> LimitEvidence:
     """The evidence on an experiment: its limits certified, and what its signals are like."""
     found = limit(experiment)
     certificates = certificates_of(found)
-    for certificate in certificates:
-        accept(certificate)
+    decided = frozenset(map(accept, certificates))
     inside, outside, *inputs = (certificate["statement"] for certificate in certificates)
     ranks = [(one["joint_rank"], one["observability_rank"], one["limit_rank"]) for one in (inside, outside)]
-    return _evidence(origin, found, ranks, [(one["B"], one["D"]) for one in inputs], len(certificates))
+    return _evidence(origin, found, ranks, [(one["B"], one["D"]) for one in inputs], decided)
 
 
 def first_look(experiment: Experiment) -> LimitEvidence:
@@ -126,11 +144,15 @@ def first_look(experiment: Experiment) -> LimitEvidence:
     found = limit(experiment)
     ranks = [(one.joint_rank, one.observability_rank, one.rank) for one in (found.past_inputs, found.past_outputs)]
     inputs = [(one.B.to_json(), one.D.to_json()) for one in (found.true_AC, found.moesp) if one is not None]
-    return _evidence("first look", found, ranks, inputs, 0)
+    return _evidence("first look", found, ranks, inputs, frozenset())
 
 
 def _evidence(
-    origin: str, found: PopulationLimits, ranks: Sequence[tuple[int, int, int]], inputs: Sequence[tuple[Any, Any]], accepted: int
+    origin: str,
+    found: PopulationLimits,
+    ranks: Sequence[tuple[int, int, int]],
+    inputs: Sequence[tuple[Any, Any]],
+    accepted: frozenset[str],
 ) -> LimitEvidence:
     """Return the evidence; of both limits `ranks` has that of [O_s L], of O_s and of L, and `inputs` the B and D of the regressions."""
     experiment = found.experiment
@@ -372,24 +394,24 @@ def _white_fault(random: Random) -> Experiment:
 
 
 FAMILIES: dict[str, Callable[[Random], Experiment]] = {
-    "v independent of u": _independent,
-    "v independent of u, u autoregressive of order at most s": _independent_autoregressive,
-    "v independent of u, poles and spectra degenerate": _degenerate,
-    "v independent of u, u of period 3": _period,
-    "u white, v leads it": _white_leads,
-    "u white, v(k) = u(k)": _simultaneous,
-    "u a moving average, v leads it": _moving_average,
-    "u coloured, v(k) = u(k+1), G = 0": _lead_one,
-    "u autoregressive of order at most s, v leads it": _autoregressive,
-    "u white, v(k) = K u(k-1)": _feedback,
-    "u white, v(k) = K u(k-1), F K = A z and G K = C z": _feedback_hidden,
-    "u white, v(k) = K u(k-1), B and D right by output error": _feedback_unseen_in_inputs,
-    "u and v white and independent": _white_fault,
+    Drawn.INDEPENDENT: _independent,
+    Drawn.INDEPENDENT_AUTOREGRESSIVE: _independent_autoregressive,
+    Drawn.DEGENERATE: _degenerate,
+    Drawn.PERIODIC: _period,
+    Drawn.WHITE_LED: _white_leads,
+    Drawn.SIMULTANEOUS: _simultaneous,
+    Drawn.MOVING_AVERAGE_LED: _moving_average,
+    Drawn.LEAD_ONE: _lead_one,
+    Drawn.AUTOREGRESSIVE_LED: _autoregressive,
+    Drawn.FEEDBACK: _feedback,
+    Drawn.FEEDBACK_HIDDEN: _feedback_hidden,
+    Drawn.FEEDBACK_UNSEEN_IN_INPUTS: _feedback_unseen_in_inputs,
+    Drawn.INDEPENDENT_WHITE: _white_fault,
 }
 
 
 # Families of which more are drawn, since few of them meet the hypotheses of some reading.
-MORE = {"v independent of u": 3, "v independent of u, u autoregressive of order at most s": 2}
+MORE: dict[str, int] = {Drawn.INDEPENDENT: 3, Drawn.INDEPENDENT_AUTOREGRESSIVE: 2}
 
 
 def nilpotent_points(largest: int = 3) -> Iterator[Experiment]:

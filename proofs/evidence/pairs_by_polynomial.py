@@ -58,7 +58,7 @@ class PairByPolynomial:
     zero_polynomial: tuple[object, ...]
     infinite_zeros: int
     equal: bool
-    accepted: int
+    accepted: frozenset[str]
 
 
 @lru_cache(maxsize=1 << 16)
@@ -73,16 +73,16 @@ class CertifiedZeros:
 
     polynomial: tuple[object, ...]
     infinite: int
+    accepted: frozenset[str]
 
 
 @lru_cache(maxsize=1 << 13)
 def certified_zeros(system: ResidualSystem) -> CertifiedZeros:
     """Return the certified zeros of a system, found once: several P of a small system give the same pair."""
     certificates = [make.finite_zeros(system), make.infinite_zeros(system)]
-    for certificate in certificates:
-        accept(certificate)
+    decided = frozenset(map(accept, certificates))
     finite, infinite = (certificate["statement"] for certificate in certificates)
-    return CertifiedZeros(_hashable(finite["invariant_zero_polynomial"]), sum(infinite["infinite_zero_orders"]))
+    return CertifiedZeros(_hashable(finite["invariant_zero_polynomial"]), sum(infinite["infinite_zero_orders"]), decided)
 
 
 def examine_by_polynomial(origin: str, purpose: str, system: ResidualSystem, P: Matrix, wanted: object, weight: int) -> PairByPolynomial:
@@ -95,9 +95,9 @@ def examine_by_polynomial(origin: str, purpose: str, system: ResidualSystem, P: 
     field = system.field
     pair = with_pair(pencil.space, P)
     own, other = ranked(system), ranked(pair)
-    fault_space_basis(system)  # certified too, for the pair is made of it
+    basis = fault_space_basis(system)  # certified too, for the pair is made of it
     found = polynomial_at(pencil, P)
-    first_difference, zeros = compared(system, pair), certified_zeros(pair)
+    comparison, zeros = compared(system, pair), certified_zeros(pair)
     return PairByPolynomial(
         origin=origin,
         purpose=purpose,
@@ -113,8 +113,8 @@ def examine_by_polynomial(origin: str, purpose: str, system: ResidualSystem, P: 
         pair_normal_rank=other.normal_rank,
         zero_polynomial=zeros.polynomial,
         infinite_zeros=zeros.infinite,
-        equal=first_difference is None,
-        accepted=6,  # the comparison, the zeros of both kinds, the fault space, and the window ranks of both
+        equal=comparison.first_difference is None,
+        accepted=zeros.accepted | {comparison.accepted, basis.accepted, own.accepted, other.accepted},
     )
 
 

@@ -1,7 +1,7 @@
 """What the claims ask of a single system: each question has certificates of its own, and what they state is read back as the answer.
 
     Question       its name, the certificates that answer it, and how the answer is read off them
-    Answer         what accepted certificates state, and how many they are
+    Answer         what accepted certificates state, and which they are
     answered       the certificates of a question made, accepted by the checker, and read
     RANKS, ...     the questions; QUESTIONS has all of them, in order
     MINIMAL, ZEROS what tells whether a system is minimal and left-invertible, and what tells all of its zeros
@@ -12,32 +12,34 @@ bears on it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Generic, TypeVar
 
 from ...exact.algebra.matrices import Matrix
 from ...exact.algebra.polynomials import Poly
-from ...exact.structure.fault_columns import FaultSpace, fault_space
+from ...exact.structure.fault_columns import FaultSpace
 from ...exact.structure.kernel_rows import KernelRepresentation, KernelRow
-from ..trust import structure_certificates as make
+from ...exact.system.systems import ResidualSystem
 from ..trust.structure_certificates import Certificate, accept
-from .kept_kernels import kernel_once
+from . import certified
+from .certified import Certifier
+from .subjects import Subject
 
 A = TypeVar("A")
 
 
 @dataclass(frozen=True)
 class Question(Generic[A]):
-    """This is a question about a system, given by its kernel representation.
+    """This is a question about a system.
 
-    `certificates(kernel)` answer it, and `read(kernel, certificates)` is the answer that they state. Both are functions of a module, as
-    questions go to other processes.
+    The certificates of `makers` answer it, and `read(subject, certificates)` is the answer that they state. All are functions of a module,
+    as questions go to other processes.
     """
 
     name: str
-    certificates: Callable[[KernelRepresentation], Iterator[Certificate]]
-    read: Callable[[KernelRepresentation, Sequence[Certificate]], A]
+    makers: tuple[Certifier, ...]
+    read: Callable[[Subject, Sequence[Certificate]], A]
 
     def __str__(self) -> str:
         return self.name
@@ -45,133 +47,77 @@ class Question(Generic[A]):
 
 @dataclass(frozen=True)
 class Answer(Generic[A]):
-    """This is what accepted certificates state, and their number."""
+    """This is what accepted certificates state, and their SHA-256."""
 
     value: A
-    accepted: int
+    accepted: frozenset[str]
 
 
-def answered(question: Question[A], kernel: KernelRepresentation) -> Answer[A]:
+def answered(question: Question[A], system: ResidualSystem) -> Answer[A]:
     """Return the answer to a question, read off certificates that the checker has accepted.
 
     Raises checker.Rejected or checker.Malformed where the checker does not accept one, and ArithmeticError where two of them disagree.
     """
-    certificates = tuple(question.certificates(kernel))
-    for certificate in certificates:
-        accept(certificate)
-    return Answer(question.read(kernel, certificates), len(certificates))
+    subject = Subject(system)
+    made = [certificate for maker in question.makers for certificate in maker(subject)]
+    decided = frozenset(map(accept, made))
+    return Answer(question.read(subject, made), decided)
 
 
-# -- the ranks of all windows by kernel rows -------------------------------------------------------------------------------
-
-
-def _ranks(kernel: KernelRepresentation) -> Iterator[Certificate]:
-    yield make.window_ranks(kernel)
-    yield make.left_invertible(kernel)
-
-
-def _kernel(kernel: KernelRepresentation, certificates: Sequence[Certificate]) -> KernelRepresentation:
-    ranks, inversion = certificates
-    rows = tuple(KernelRow(row["pivot"], Matrix.of(row["coefficients"], kernel.system.field)) for row in ranks["witness"]["kernel"])
-    found = replace(kernel, rows=rows)
-    if (found.normal_rank == kernel.system.m) != (inversion["kind"] == "left-invertible"):
-        raise ArithmeticError(f"two accepted certificates disagree on whether {kernel.system} is left-invertible")
+def _kernel(subject: Subject, made: Sequence[Certificate]) -> KernelRepresentation:
+    ranks, inversion = made
+    rows = tuple(KernelRow(row["pivot"], Matrix.of(row["coefficients"], subject.system.field)) for row in ranks["witness"]["kernel"])
+    found = replace(subject.kernel, rows=rows)
+    if (found.normal_rank == subject.system.m) != (inversion["kind"] == "left-invertible"):
+        raise ArithmeticError(f"two accepted certificates disagree on whether {subject.system} is left-invertible")
     return found
 
 
-# -- one certificate a question --------------------------------------------------------------------------------------------
+def _rank(subject: Subject, made: Sequence[Certificate]) -> int:
+    return int(made[0]["statement"]["rank"])
 
 
-def _observability(kernel: KernelRepresentation) -> Iterator[Certificate]:
-    yield make.matrix_rank("observability", kernel.system)
+def _left_indices(subject: Subject, made: Sequence[Certificate]) -> tuple[int, ...]:
+    return tuple(made[0]["statement"]["left_minimal_indices"])
 
 
-def _reachability(kernel: KernelRepresentation) -> Iterator[Certificate]:
-    yield make.matrix_rank("reachability", kernel.system)
-
-
-def _rank(kernel: KernelRepresentation, certificates: Sequence[Certificate]) -> int:
-    return int(certificates[0]["statement"]["rank"])
-
-
-def _dual_ranks(kernel: KernelRepresentation) -> Iterator[Certificate]:
-    yield make.window_ranks(kernel_once(kernel.system.transposed()))
-
-
-def _left_indices(kernel: KernelRepresentation, certificates: Sequence[Certificate]) -> tuple[int, ...]:
-    return tuple(certificates[0]["statement"]["left_minimal_indices"])
-
-
-def _from_known_state(kernel: KernelRepresentation) -> Iterator[Certificate]:
-    yield make.inversion_delay(kernel, known_state=True)
-
-
-def _from_unknown_state(kernel: KernelRepresentation) -> Iterator[Certificate]:
-    yield make.inversion_delay(kernel, known_state=False)
-
-
-def _delay(kernel: KernelRepresentation, certificates: Sequence[Certificate]) -> int | None:
-    delay: int | None = certificates[0]["statement"]["delay"]
+def _delay(subject: Subject, made: Sequence[Certificate]) -> int | None:
+    delay: int | None = made[0]["statement"]["delay"]
     return delay
 
 
-def _finite_zeros(kernel: KernelRepresentation) -> Iterator[Certificate]:
-    yield make.finite_zeros(kernel.system)
+def _polynomial(subject: Subject, made: Sequence[Certificate]) -> Poly:
+    return tuple(subject.system.field.element(c) for c in made[0]["statement"]["invariant_zero_polynomial"])
 
 
-def _polynomial(kernel: KernelRepresentation, certificates: Sequence[Certificate]) -> Poly:
-    return tuple(kernel.system.field.element(c) for c in certificates[0]["statement"]["invariant_zero_polynomial"])
+def _orders(subject: Subject, made: Sequence[Certificate]) -> tuple[int, ...]:
+    return tuple(made[0]["statement"]["infinite_zero_orders"])
 
 
-def _infinite_zeros(kernel: KernelRepresentation) -> Iterator[Certificate]:
-    yield make.infinite_zeros(kernel.system)
+def _space(subject: Subject, made: Sequence[Certificate]) -> FaultSpace:
+    system, basis = subject.system, made[0]["statement"]["basis"]
+    return FaultSpace(system, None, subject.kernel.lag + 1, Matrix.of(basis, system.field, shape=(len(basis), system.n + system.p)))
 
 
-def _orders(kernel: KernelRepresentation, certificates: Sequence[Certificate]) -> tuple[int, ...]:
-    return tuple(certificates[0]["statement"]["infinite_zero_orders"])
+def _dimensions(subject: Subject, made: Sequence[Certificate]) -> tuple[int, ...]:
+    return tuple(len(certificate["statement"]["basis"]) for certificate in made)
 
 
-def _limit(kernel: KernelRepresentation) -> Iterator[Certificate]:
-    yield make.fault_space(kernel, fault_space(kernel))
+def _ranks(subject: Subject, made: Sequence[Certificate]) -> tuple[int, ...]:
+    return tuple(certificate["statement"]["rank"] for certificate in made)
 
 
-def _space(kernel: KernelRepresentation, certificates: Sequence[Certificate]) -> FaultSpace:
-    system, basis = kernel.system, certificates[0]["statement"]["basis"]
-    return FaultSpace(system, None, kernel.lag + 1, Matrix.of(basis, system.field, shape=(len(basis), system.n + system.p)))
-
-
-# -- a certificate for each of the windows s = 1, ..., n + 2 ---------------------------------------------------------------
-
-
-def _window_spaces(kernel: KernelRepresentation) -> Iterator[Certificate]:
-    for s in range(1, kernel.system.n + 3):
-        yield make.fault_space(kernel, fault_space(kernel, s))
-
-
-def _dimensions(kernel: KernelRepresentation, certificates: Sequence[Certificate]) -> tuple[int, ...]:
-    return tuple(len(certificate["statement"]["basis"]) for certificate in certificates)
-
-
-def _windows(kernel: KernelRepresentation) -> Iterator[Certificate]:
-    for s in range(1, kernel.system.n + 3):
-        yield make.matrix_rank("window", kernel.system, window=s)
-
-
-def _window_ranks(kernel: KernelRepresentation, certificates: Sequence[Certificate]) -> tuple[int, ...]:
-    return tuple(certificate["statement"]["rank"] for certificate in certificates)
-
-
-RANKS = Question("ranks", _ranks, _kernel)
-OBSERVABILITY = Question("observability", _observability, _rank)
-REACHABILITY = Question("reachability", _reachability, _rank)
-RIGHT_INDICES = Question("right indices", _dual_ranks, _left_indices)
-DELAY_KNOWN_STATE = Question("delay from a known state", _from_known_state, _delay)
-DELAY_UNKNOWN_STATE = Question("delay from an unknown state", _from_unknown_state, _delay)
-FINITE_ZEROS = Question("finite zeros", _finite_zeros, _polynomial)
-INFINITE_ZEROS = Question("infinite zeros", _infinite_zeros, _orders)
-SPACE = Question("fault space", _limit, _space)
-WINDOW_SPACES = Question("fault spaces of windows", _window_spaces, _dimensions)
-WINDOWS = Question("windows one by one", _windows, _window_ranks)
+RANKS = Question("ranks", (certified.windows, certified.invertible), _kernel)
+OBSERVABILITY = Question("observability", (certified.observed,), _rank)
+REACHABILITY = Question("reachability", (certified.reached,), _rank)
+RIGHT_INDICES = Question("right indices", (certified.dual_windows,), _left_indices)
+DELAY_KNOWN_STATE = Question("delay from a known state", (certified.delay_known,), _delay)
+DELAY_UNKNOWN_STATE = Question("delay from an unknown state", (certified.delay_unknown,), _delay)
+FINITE_ZEROS = Question("finite zeros", (certified.finite,), _polynomial)
+INFINITE_ZEROS = Question("infinite zeros", (certified.infinite,), _orders)
+SPACE = Question("fault space", (certified.solutions,), _space)
+WINDOW_SPACES = Question("fault spaces of windows", (certified.solutions_by_window,), _dimensions)
+WINDOWS = Question("windows one by one", (certified.window_by_window,), _ranks)
 MINIMAL: tuple[Question[Any], ...] = (RANKS, OBSERVABILITY, REACHABILITY)
 ZEROS: tuple[Question[Any], ...] = (FINITE_ZEROS, INFINITE_ZEROS)
 QUESTIONS: tuple[Question[Any], ...] = (

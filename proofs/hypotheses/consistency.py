@@ -61,8 +61,8 @@ class Driven:
         return "Q"
 
     @property
-    def accepted(self) -> int:
-        """This is the number of accepted certificates."""
+    def accepted(self) -> frozenset[str]:
+        """These are the accepted certificates, by their SHA-256."""
         return self.record.accepted
 
     @cached_property

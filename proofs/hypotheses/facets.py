@@ -1,12 +1,12 @@
-"""What is asked of one system alone, exactly and found once, and the same of many integer systems at a first look.
+"""What is asked of one system alone, exactly and found once, and the same of many integer systems in the language of claims.
 
-Facets        observable, controllable, left-invertible, stable, normal rank, lag, number of unobservable modes
+Facets        observable, controllable, left-invertible, stable, normal rank, lag
 facets        those of a system
 degenerate    why a system would be a poor witness; "" where it would not
-poor          which of many integer systems would be so
+POOR          an expression that says so of systems with states, outputs and faults
 of_system     the hypotheses about one system, of subjects that have one
-nilpotent     which of many integer systems have a stable A
-flags         which of many systems meet all of some hypotheses about one system
+MODEL         the hypotheses about one system as expressions of the language, for integer systems
+expressions   those of some hypotheses
 """
 
 from __future__ import annotations
@@ -16,15 +16,12 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeVar
 
-import numpy as np
-
 from ...exact.algebra.fields import PrimeField
 from ...exact.algebra.matrices import rank, stacked
 from ...exact.algebra.stability import is_stable
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import observability_matrix, reachability_matrix
 from ..evidence.kept_kernels import kernel_once
-from ..evidence.search import Facts, Flags, ranks
 
 S = TypeVar("S")
 
@@ -39,22 +36,19 @@ class Facets:
     stable: bool
     normal_rank: int
     lag: int
-    unobservable_modes: int
 
 
 @lru_cache(maxsize=1 << 18)
 def facets(system: ResidualSystem) -> Facets:
     """What the hypotheses ask of a system, found once."""
     kernel = kernel_once(system)
-    seen = rank(observability_matrix(system, system.n))
     return Facets(
-        observable=seen == system.n,
+        observable=rank(observability_matrix(system, system.n)) == system.n,
         controllable=rank(reachability_matrix(system)) == system.n,
         left_invertible=kernel.normal_rank == system.m,
         stable=isinstance(system.field, PrimeField) or is_stable(system.A),
         normal_rank=kernel.normal_rank,
         lag=kernel.lag,
-        unobservable_modes=system.n - seen,
     )
 
 
@@ -82,33 +76,11 @@ def of_system(system: Callable[[S], ResidualSystem]) -> dict[str, Callable[[S], 
     }
 
 
-def poor(facts: Facts) -> Flags:
-    """Whether `degenerate` has something to say of them, where there are states, outputs and faults."""
-    columns = np.concatenate([facts.F, facts.G], axis=1)
-    return np.asarray(~facts.C.any(axis=(1, 2)) | ~facts.F.any(axis=(1, 2)) | (ranks(columns) < facts.m))
+# An integer matrix is Schur stable iff it is nilpotent: its characteristic polynomial is monic with integer coefficients.
+MODEL = {"observable": "observable", "controllable": "controllable", "left-invertible": "left_invertible", "A stable": "nilpotent(A)"}
+POOR = "is_zero(C) or is_zero(F) or rank(vstack(F, G)) < m"
 
 
-def nilpotent(facts: Facts) -> Flags:
-    """An integer matrix is Schur stable iff it is nilpotent: its characteristic polynomial is monic with integer coefficients."""
-    return np.asarray(~np.linalg.matrix_power(facts.A, facts.n).any(axis=(1, 2)))
-
-
-_LOOKS: dict[str, Callable[[Facts], Flags]] = {
-    "observable": lambda f: f.observable,
-    "controllable": lambda f: f.controllable,
-    "left-invertible": lambda f: f.left_invertible,
-    "A stable": nilpotent,
-}
-
-
-def flags(kept: Collection[str], prefix: str = "") -> Callable[[Facts], Flags]:
-    """The systems that meet those of the hypotheses that are about one system: their names are the keys of _LOOKS after a prefix."""
-
-    def test(facts: Facts) -> Flags:
-        found = np.full(len(facts.A), True)
-        for name, look in _LOOKS.items():
-            if prefix + name in kept and found.any():
-                found &= look(facts)
-        return found
-
-    return test
+def expressions(kept: Collection[str], prefix: str = "") -> tuple[str, ...]:
+    """Return the expressions of those of the hypotheses that are about one system: their names are the keys of MODEL after a prefix."""
+    return tuple(text for name, text in MODEL.items() if prefix + name in kept)

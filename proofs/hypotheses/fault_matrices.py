@@ -8,25 +8,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import product
 from random import Random
 
 from ...exact.algebra.matrices import Matrix, rank, stacked
 from ...exact.structure.behavior import compare
 from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.system.systems import ResidualSystem
+from ..boxes.box import Box, in_order, matrices_in_order
 from ..evidence.alternatives import ALTERNATIVES, AlternativeEvidence, comparison_certificate, examine_alternative
 from ..evidence.kept_kernels import kernel_once, space_once
 from ..evidence.material import Material
-from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench, size
 from .aimed import aimed_systems
-from .facets import degenerate, facets, flags, of_system
+from .facets import degenerate, expressions, facets, of_system
 
-BOX = Box(total=5, largest_n=1, largest_m=2, largest_p=2)
+BOX = Box(n=(1, 1), m=(1, 2), p=(1, 2), total=5)
 
 
 @dataclass(frozen=True)
@@ -41,7 +40,7 @@ class Pair:
     window: int
     equal: bool
     weight: int
-    accepted: int
+    accepted: frozenset[str]
 
     @property
     def size(self) -> tuple[int, ...]:
@@ -130,15 +129,13 @@ def _smallest(bench: Workbench, dropped: Sequence[str]) -> Found[Pair]:
     kept = [test for name, test in HYPOTHESES.items() if name not in dropped]
 
     def counterexamples(poor: bool) -> Iterator[Pair]:
-        for system in systems_in_order(BOX, flags(set(HYPOTHESES) - set(dropped))):
+        for system in in_order(BOX, *expressions(set(HYPOTHESES) - set(dropped))):
             if degenerate(system) and not poor:
                 continue
             kernel = kernel_once(system)
             for s in range(1 if "s >= lag + 1" in dropped else kernel.lag + 1, kernel.lag + 2):
                 space = fault_space(kernel, s)
-                shape = (space.dimension, system.m)
-                for entries in product((-1, 0, 1), repeat=shape[0] * shape[1]):
-                    P = Matrix.of([list(entries[i * system.m : (i + 1) * system.m]) for i in range(shape[0])], shape=shape)
+                for P in matrices_in_order(space.dimension, system.m):
                     pair = Pair(system, with_pair(space, P), s, False, 1, 0)
                     if bool(pair.degenerate) == poor and all(test(pair) for test in kept) and _differs(pair):
                         yield pair

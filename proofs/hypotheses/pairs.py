@@ -8,7 +8,6 @@ same_model     equal for ever: is the second (A, Fhat P, C, Ghat P), once its st
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
@@ -18,20 +17,20 @@ from ...exact.algebra.matrices import Matrix, column_basis, rank, stacked
 from ...exact.structure.fault_columns import fault_space
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import window_matrix
+from ..boxes.box import Box, grouped
 from ..evidence.alternatives import ALTERNATIVES, PAIRS, PairEvidence, comparison_certificate, examine_pair
 from ..evidence.kept_kernels import kernel_once, space_once
 from ..evidence.material import Material
-from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench
 from .aimed import aimed_systems, other_columns
 from .changes_of_state import columns_moved, equivalent_pairs, moved, similarity
-from .facets import degenerate, facets, flags
+from .facets import degenerate, expressions, facets
 
-BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
-SMALLER = Box(total=4, largest_n=1, largest_m=2, largest_p=2)
+BOX = Box(n=(1, 2), m=(1, 2), p=(1, 2), total=5)
+SMALLER = Box(n=(1, 1), m=(1, 2), p=(1, 2), total=4)
 
 
 @dataclass(frozen=True)
@@ -43,7 +42,7 @@ class Compared:
     window: int | None
     equal: bool
     weight: int
-    accepted: int
+    accepted: frozenset[str]
 
     @property
     def size(self) -> tuple[int, ...]:
@@ -113,7 +112,7 @@ def theorem_1() -> Ablation[Compared]:
 
 def theorem_3_i() -> Ablation[Compared]:
     """Drop hypotheses of: the columns of an equivalent system with as many states lie in Z after some change of its state."""
-    words = "the columns [T F'; G'] of an equivalent system lie in Z, for some change T of its state"
+    words = "the columns [T F'; G'] of an equivalent system with as many states lie in Z, for some change T of its state"
     return _of_equivalent("columns-in-Z", words, _columns_in_space, Proof(("columns_after_change_of_state",)))
 
 
@@ -155,12 +154,12 @@ def columns_in_space(first: ResidualSystem, second: ResidualSystem) -> bool:
 
 
 def _agreeing(bench: Workbench) -> Iterator[Compared]:
-    """Yield every pair that agrees on s samples, for each s where it does up to n + 2; its certificates count once."""
+    """Yield every pair that agrees on s samples, for each s where it does up to n + 2."""
     bench.need(PAIRS, MADE)
     for d in (*bench.pairs, *bench.material(MADE)):
         last = max(d.first.n, d.second.n) + 2 if d.first_difference is None else d.first_difference - 1
         for s in range(1, last + 1):
-            yield Compared(d.first, d.second, s, d.first_difference is None, d.weight, d.accepted if s == 1 else 0)
+            yield Compared(d.first, d.second, s, d.first_difference is None, d.weight, d.accepted)
 
 
 def _equivalent(bench: Workbench) -> Iterator[Compared]:
@@ -187,25 +186,14 @@ def _examined(pair: tuple[ResidualSystem, ResidualSystem]) -> list[PairEvidence]
 MADE = Material("equivalent pairs", "comparing pairs made on purpose", _sources, _examined, 40)
 
 
-def _groups(
-    box: Box, dropped: Sequence[str], key: Callable[[ResidualSystem], object]
-) -> Iterator[tuple[ResidualSystem, list[ResidualSystem]]]:
-    """Yield every system of the box in order, with all those of its dimensions that share its key."""
-    for n, m, p in box.dimensions():
-        here = Box(total=n + m + p, largest_n=n, largest_m=m, largest_p=p, least_m=m)
-        systems = [s for s in systems_in_order(here, flags(ALONE - set(dropped), "both ")) if (s.n, s.m, s.p) == (n, m, p)]
-        groups: dict[object, list[ResidualSystem]] = defaultdict(list)
-        keys = [key(system) for system in systems]
-        for system, name in zip(systems, keys, strict=True):
-            groups[name].append(system)
-        for system, name in zip(systems, keys, strict=True):
-            yield system, groups[name]
-
-
 @lru_cache(maxsize=1 << 14)  # the same small systems are gone through for each hypothesis that is dropped
 def _outputs(system: ResidualSystem, s: int) -> Matrix:
     """Return the column space of [O_s T_s]."""
     return column_basis(window_matrix(system, s))
+
+
+def _kept(dropped: Sequence[str]) -> tuple[str, ...]:
+    return expressions(ALONE - set(dropped), "both ")
 
 
 def _words(box: Box) -> str:
@@ -222,7 +210,7 @@ def _smallest_agreeing(bench: Workbench, dropped: Sequence[str]) -> Found[Compar
         return shared, _outputs(system, system.n + extra)
 
     def counterexamples(poor: bool) -> Iterator[Compared]:
-        for first, group in _groups(box, dropped, key):
+        for first, group in grouped(box, key, *_kept(dropped)):
             if len(group) > 1 and (poor or not degenerate(first)):
                 longer = _outputs(first, 2 * first.n + 1)
                 for second in group:
@@ -237,7 +225,7 @@ def _smallest_outside(holds: Callable[[Compared], bool], bench: Workbench, dropp
     """Return the first system with an equivalent one for which the conclusion fails."""
 
     def counterexamples(poor: bool) -> Iterator[Compared]:
-        for first, group in _groups(SMALLER, dropped, lambda s: _outputs(s, 2 * s.n + 1)):
+        for first, group in grouped(SMALLER, lambda s: _outputs(s, 2 * s.n + 1), *_kept(dropped)):
             for second in group:
                 pair = Compared(first, second, None, True, 1, 0)
                 kept = SIMILAR in dropped or pair.similarity is not None

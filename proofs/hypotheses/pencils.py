@@ -15,10 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import product
 from random import Random
-
-import numpy as np
 
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.pairs.bad_variety import bad_set
@@ -27,41 +24,31 @@ from ...exact.pairs.witnesses import BadPair, bad_pair
 from ...exact.structure.fault_columns import with_pair
 from ...exact.structure.pencil import infinite_zero_orders
 from ...exact.system.systems import ResidualSystem
+from ..boxes.box import Box, in_order, matrices_in_order
 from ..claims.one_determinant import agrees
 from ..claims.one_determinant import show as show_pair
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.kept_kernels import kernel_once
 from ..evidence.material import Material
 from ..evidence.pairs_by_polynomial import PAIRS_BY_POLYNOMIAL, PairByPolynomial, examine_by_polynomial, pencil_of
-from ..evidence.questions import RANKS
-from ..evidence.search import Box, Facts, Integers, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench, size
 from .aimed import aimed_systems
-from .facets import degenerate, flags, of_system
+from .facets import degenerate, expressions, of_system
 from .given_zeros import every_polynomial_is_reached
 from .systems import MODEL
-from .windowed import NO_WINDOW, Condition, Windowed, windowed
+from .windowed import NO_WINDOW, Condition, Windowed, says, windowed
 
-BOX = Box(total=5, largest_n=1, largest_m=2, largest_p=2)
-WIDER = Box(total=6, largest_n=1, largest_m=2, largest_p=3)
-LONGER = Box(total=4, largest_n=2, largest_m=1, largest_p=1)
-
-
-def _normal_rank(facts: Facts) -> Integers:
-    return facts.gap(facts.n + 1)
+BOX = Box(n=(1, 1), m=(1, 2), p=(1, 2), total=5)
+WIDER = Box(n=(1, 1), m=(1, 2), p=(1, 3), total=6)
+LONGER = Box(n=(1, 2), m=(1, 1), p=(1, 1), total=4)
 
 
-def _zeta(facts: Facts) -> Integers:
-    """Return the number n less the left minimal indices, read off a late window."""
-    late = facts.n + 1
-    return facts.n - facts.rank(late) + late * _normal_rank(facts)
-
-
-TWO_FAULTS = Condition((RANKS,), lambda w: w.evidence.kernel.normal_rank >= 2, lambda f, s: np.asarray(_normal_rank(f) >= 2))
-SOME_ZERO = Condition((), lambda w: pencil_of(w.evidence.system).zeta >= 1, lambda f, s: np.asarray(_zeta(f) >= 1))
+ZETA = "n - sum(left_minimal_indices)"  # of a pencil, left-invertible or not
+TWO_FAULTS = says("normal_rank >= 2")
+SOME_ZERO = Condition((), lambda w: pencil_of(w.evidence.system).zeta >= 1, f"{ZETA} >= 1")
 SIZES = {**MODEL, "r >= 2": TWO_FAULTS, "zeta >= 1": SOME_ZERO}
 
 
@@ -80,7 +67,7 @@ def codimension() -> Ablation[Windowed]:
         size = bad_set(pencil_of(subject.evidence.system)).codimension
         return size is None or size >= 2
 
-    conclusion = Condition((), at_least_two, lambda f, s: np.asarray(f.observable & (_zeta(f) >= 1)))
+    conclusion = Condition((), at_least_two, f"observable and {ZETA} >= 1")
     proof = Proof(("bad_set_plane",), frozenset({"observable", "zeta >= 1"}))
     words = "over every extension of the field a plane meets the bad P in 0 alone (and so, as is known, they have codimension at least 2)"
     return _of_pencils("codimension", words, conclusion, proof)
@@ -92,7 +79,7 @@ def bad_of_full_rank() -> Ablation[Windowed]:
     def exists(subject: Windowed) -> bool:
         return isinstance(bad_pair(pencil_of(subject.evidence.system)), BadPair)
 
-    conclusion = Condition((), exists, lambda f, s: np.asarray((_normal_rank(f) >= 2) & (_zeta(f) >= 1)))
+    conclusion = Condition((), exists, f"normal_rank >= 2 and {ZETA} >= 1")
     proof = Proof(("bad_set_full_rank",), frozenset({"r >= 2", "zeta >= 1"}))
     return _of_pencils("bad-of-full-rank", "some P of full column rank is bad", conclusion, proof)
 
@@ -104,8 +91,8 @@ def placement() -> Ablation[Windowed]:
         return every_polynomial_is_reached(pencil_of(subject.evidence.system))
 
     words = "where r >= 1, every nonzero polynomial of degree at most zeta is the zero polynomial of some pair"
-    conclusion = Condition((), reached, lambda f, s: np.asarray(f.observable | (_zeta(f) == 0)))
-    some_column = Condition((RANKS,), lambda w: w.evidence.kernel.normal_rank >= 1, lambda f, s: np.asarray(_normal_rank(f) >= 1))
+    conclusion = Condition((), reached, f"observable or {ZETA} == 0")
+    some_column = says("normal_rank >= 1")
     proof = Proof(("zero_assignment_observable",), frozenset({"observable"}))
     made = ("placement", "zero-assignment", words, MODEL, conclusion, _show, some_column, lambda n: NO_WINDOW, LONGER)
     return windowed(*made, proof=proof)
@@ -150,8 +137,8 @@ class Chosen:
         return str(self.record.system.field)
 
     @property
-    def accepted(self) -> int:
-        """This is the number of accepted certificates."""
+    def accepted(self) -> frozenset[str]:
+        """These are the accepted certificates, by their SHA-256."""
         return self.record.accepted
 
     @property
@@ -235,18 +222,16 @@ def _smallest_pair(hypotheses: Mapping[str, Callable[[Chosen], bool]], bench: Wo
     kept = [test for name, test in hypotheses.items() if name not in dropped]
 
     def counterexamples(poor: bool) -> Iterator[Chosen]:
-        for system in systems_in_order(BOX, flags(set(hypotheses) - set(dropped))):
+        for system in in_order(BOX, *expressions(set(hypotheses) - set(dropped))):
             if degenerate(system) and not poor:
                 continue
             pencil = pencil_of(system)
-            rows, cols = pencil.n_z, pencil.columns
-            for entries in product((-1, 0, 1), repeat=rows * cols):
-                P = Matrix.of([list(entries[i * cols : (i + 1) * cols]) for i in range(rows)], shape=(rows, cols))
-                if rank(P) < cols and not poor:
+            for P in matrices_in_order(pencil.n_z, pencil.columns):
+                if rank(P) < pencil.columns and not poor:
                     continue
                 pair = kernel_once(with_pair(pencil.space, P))
                 count = len(polynomial_at(pencil, P)) - 1 + sum(infinite_zero_orders(pair))
-                if pair.normal_rank < cols or count != pencil.zeta:
+                if pair.normal_rank < pencil.columns or count != pencil.zeta:
                     subject = Chosen(examine_by_polynomial("search", "search", system, P, None, 1))
                     if bool(subject.degenerate) == poor and all(test(subject) for test in kept) and not _as_many(subject):
                         yield subject

@@ -13,14 +13,11 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-import numpy as np
-
 from ...exact.algebra.matrices import rank
+from ..boxes.box import Box
 from ..claims.common import delays, spaces, zeros
-from ..evidence.questions import DELAY_KNOWN_STATE, DELAY_UNKNOWN_STATE, FINITE_ZEROS, RANKS, SPACE, WINDOW_SPACES, WINDOWS, ZEROS
-from ..evidence.search import Box, Facts, Flags
+from ..evidence.questions import RANKS, SPACE, WINDOWS
 from ..verdict.ablation import Ablation, Proof
-from .facets import facets
 from .windowed import (
     CONTROLLABLE,
     FROM_DELAY,
@@ -32,6 +29,7 @@ from .windowed import (
     Windowed,
     from_lag,
     from_n,
+    says,
     windowed,
 )
 
@@ -39,33 +37,14 @@ MODEL = {"observable": OBSERVABLE, "controllable": CONTROLLABLE, "left-invertibl
 INVERTIBLE = "left-invertible"
 
 
-def _formula(subject: Windowed) -> bool:
-    e, s = subject.evidence, subject.window
-    return e.kernel.rank(s) == e.system.n + s * e.system.m - e.zeta
-
-
-def _formula_look(facts: Facts, s: int) -> Flags:
-    """Return whether the formula surely holds: of left-invertible systems, whose zeta is read off a late rank; others stay open."""
-    late = facts.n + 1
-    zeta = facts.n + late * facts.m - facts.rank(late)
-    return np.asarray(facts.left_invertible & (facts.rank(s) == facts.n + s * facts.m - zeta))
-
-
-def _settled(facts: Facts, s: int) -> Flags:
-    """Return whether no left minimal index is above s - 1."""
-    return np.asarray(facts.gap(s - 1) == facts.gap(facts.n + 1))
-
-
-GAP_IS_M = Condition((RANKS,), lambda w: w.evidence.kernel.gap(w.window) == w.evidence.system.m, lambda f, s: np.asarray(f.gap(s) == f.m))
-LIMIT_REACHED = Condition(
-    (SPACE, WINDOW_SPACES), lambda w: w.evidence.space_dimensions[w.window - 1] == w.evidence.fault_space.dimension, _settled
-)
+GAP_IS_M = says("gap({s}) == m")
+LIMIT_REACHED = says("solutions({s}) == n_z")
 
 
 def rank_formula() -> Ablation[Windowed]:
     """Return the ablation of theorem-2 with the zeros of the pencil."""
     hypotheses = {**MODEL, "s >= n": from_n()}
-    conclusion = Condition((RANKS, *ZEROS), _formula, _formula_look)
+    conclusion = says("rank_OT({s}) == n + {s} * m - zeta")
     proof = _proof("theorem_2", "lag_at_most_n", uses={INVERTIBLE, "s >= n"})
     return windowed("rank-formula", "theorem-2", "rank [O_s T_s] = n + s m - zeta", hypotheses, conclusion, zeros, proof=proof)
 
@@ -103,34 +82,24 @@ def solutions_from_lag() -> Ablation[Windowed]:
 
 def columns() -> Ablation[Windowed]:
     """Return the ablation of the claim on the number of columns of (Fhat, Ghat)."""
-    conclusion = Condition(
-        (*ZEROS, SPACE), lambda w: w.evidence.fault_space.dimension == w.evidence.system.m + w.evidence.zeta, lambda f, s: f.left_invertible
-    )
+    conclusion = says("n_z == m + zeta")
     words = "Z has dimension n_z = m + zeta"
     proof = _proof("problem_11_dimension", "zeros_exist", "lag_at_most_n", uses={INVERTIBLE})
     return windowed("columns", "problem-11", words, MODEL, conclusion, zeros, windows=lambda n: NO_WINDOW, proof=proof)
 
 
-NO_FEEDTHROUGH = Condition((), lambda w: w.evidence.system.G.is_zero(), lambda f, s: np.asarray(~f.G.any(axis=(1, 2))))
-RELATIVE_DEGREE_ONE = Condition(
-    (),
-    lambda w: rank(w.evidence.system.C @ w.evidence.system.F) == w.evidence.system.m,
-    lambda f, s: np.asarray(f.rank_from_rest(2) == f.m),
-)
-NO_FINITE_ZEROS = Condition((FINITE_ZEROS,), lambda w: w.evidence.finite_zeros == 0, lambda f, s: np.full(len(f.A), True))
-ONLY_UNOBSERVABLE = Condition(
-    (FINITE_ZEROS,), lambda w: w.evidence.finite_zeros == facets(w.evidence.system).unobservable_modes, lambda f, s: np.full(len(f.A), True)
-)
+NO_FEEDTHROUGH = Condition((), lambda w: w.evidence.system.G.is_zero(), "is_zero(G)")
+RELATIVE_DEGREE_ONE = Condition((), lambda w: rank(w.evidence.system.C @ w.evidence.system.F) == w.evidence.system.m, "rank(C @ F) == m")
+NO_FINITE_ZEROS = says("finite_zeros == 0")
+ONLY_UNOBSERVABLE = says("finite_zeros == unobservable_dimension")
 
 
 def range_of_f() -> Ablation[Windowed]:
     """The ablation of zero-feedthrough: with G = 0 known, im F is determined by the outputs."""
     hypotheses = {**MODEL, "rank CF = m": RELATIVE_DEGREE_ONE, "no finite zeros": NO_FINITE_ZEROS}
-    conclusion = Condition(
-        (SPACE,), lambda w: w.evidence.without_feedthrough == rank(w.evidence.system.F), lambda f, s: np.full(len(f.A), False)
-    )
+    conclusion = Condition((SPACE,), lambda w: w.evidence.without_feedthrough == rank(w.evidence.system.F), None)
     words = "the members of Z without feedthrough are im F"
-    box = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
+    box = Box(n=(1, 2), m=(1, 2), p=(1, 2), total=4)
     proof = _proof("zero_feedthrough", "theorem_3_part_i", "zeros_exist", uses={INVERTIBLE, "rank CF = m", "no finite zeros"})
     implied = {
         "observable": "each unobservable mode is a finite zero",
@@ -142,9 +111,7 @@ def range_of_f() -> Ablation[Windowed]:
 
 def signal_from_known_state() -> Ablation[Windowed]:
     """Return the ablation of trajectory-recovered where v is found from the outputs and x(0)."""
-    conclusion = Condition(
-        (DELAY_KNOWN_STATE,), lambda w: w.evidence.delay_known_state is not None, lambda f, s: np.asarray(f.delay_known_state <= f.n)
-    )
+    conclusion = says("delay_known < inf")
     words = "the outputs and x(0) determine v"
     proof = _proof("trajectory_state_known", uses={INVERTIBLE})
     made = ("signal-known-state", "trajectory-recovered", words, MODEL, conclusion, delays)
@@ -155,9 +122,7 @@ def signal_from_unknown_state() -> Ablation[Windowed]:
     """Return the ablation of trajectory-recovered where v is found from the outputs alone."""
     zeros_hidden = "as many finite zeros as unobservable modes"
     hypotheses = {**MODEL, zeros_hidden: ONLY_UNOBSERVABLE}
-    conclusion = Condition(
-        (DELAY_UNKNOWN_STATE,), lambda w: w.evidence.delay_unknown_state is not None, lambda f, s: np.asarray(f.delay_unknown_state <= f.n)
-    )
+    conclusion = says("delay_unknown < inf")
     words = "the outputs alone determine v"
     proof = _proof("trajectory_no_finite_zeros", "zeros_exist", uses={INVERTIBLE, zeros_hidden})
     made = ("signal-unknown-state", "trajectory-recovered", words, hypotheses, conclusion, delays)
@@ -169,7 +134,7 @@ def every_window() -> Ablation[Windowed]:
     conclusion = Condition(
         (RANKS, WINDOWS),
         lambda w: w.evidence.kernel.rank(w.window) == w.evidence.window_ranks[w.window - 1],
-        lambda f, s: np.full(len(f.A), False),
+        None,
     )
     words = "rank [O_s T_s] = s r + sum of min(s, eta_i)"
     proof = _proof("window_ranks", "window_ranks_left_indices", "zeros_exist")
@@ -178,11 +143,7 @@ def every_window() -> Ablation[Windowed]:
 
 def sharp_gap() -> Ablation[Windowed]:
     """The ablation of sharp-windows: the gap is r for exactly the s >= lag."""
-    conclusion = Condition(
-        (RANKS,),
-        lambda w: (w.evidence.kernel.gap(w.window) == w.evidence.kernel.normal_rank) == (w.window >= w.evidence.kernel.lag),
-        lambda f, s: np.full(len(f.A), False),
-    )
+    conclusion = says("iff(gap({s}) == normal_rank, {s} >= lag)")
     words = "gap(s) = r iff s >= lag"
     return windowed("sharp-gap", "sharp-windows", words, MODEL, conclusion, delays, proof=_proof("sharp_gap"))
 

@@ -13,24 +13,22 @@ from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from itertools import islice
 
-import numpy as np
-
 from ...exact.algebra.fields import QQ, Field
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.structure.signals import hankel, persistency, simulate
 from ...exact.system.systems import ResidualSystem
+from ..boxes.box import Box, in_order
 from ..evidence.exhaustive import orbits
 from ..evidence.families import adversarial, random_systems
 from ..evidence.material import Material
-from ..evidence.search import Box, Facts, Flags, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
 from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench, size
 from .aimed import aimed_systems
-from .facets import degenerate, facets, flags, of_system, poor
+from .facets import POOR, degenerate, expressions, facets, of_system
 
-BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
+BOX = Box(n=(1, 2), m=(1, 2), p=(1, 2), total=5)
 
 
 @dataclass(frozen=True)
@@ -48,7 +46,7 @@ class Simulated:
     excitation: int
     order: int
     weight: int
-    accepted: int
+    accepted: frozenset[str]
 
     @property
     def size(self) -> tuple[int, ...]:
@@ -129,12 +127,11 @@ def signals(system: ResidualSystem, s: int, count: int) -> Iterator[tuple[Matrix
 
 def examined(system: ResidualSystem, x0: Matrix, v: Matrix, s: int, weight: int = 1) -> Simulated:
     """The subject of this trajectory, with its ranks certified."""
-    bare = Simulated(system, x0, v, s, 0, 0, persistency(v), weight, 0)
-    ranks = []
-    for certificate in _data_ranks(bare):
-        accept(certificate)
-        ranks.append(certificate["statement"]["rank"])
-    return replace(bare, gap=ranks[1] - ranks[0], excitation=ranks[2], accepted=len(ranks))
+    bare = Simulated(system, x0, v, s, 0, 0, persistency(v), weight, frozenset())
+    certificates = tuple(_data_ranks(bare))
+    decided = frozenset(map(accept, certificates))
+    before, after, excitation = (certificate["statement"]["rank"] for certificate in certificates)
+    return replace(bare, gap=after - before, excitation=excitation, accepted=decided)
 
 
 def _subjects(bench: Workbench) -> Iterator[Simulated]:
@@ -164,8 +161,8 @@ def _smallest(hypotheses: Mapping[str, Callable[[Simulated], bool]], bench: Work
     """Return the first system and window, in this order, with one of the signals that meets what is kept and shows another gap."""
     kept = {name: test for name, test in hypotheses.items() if name not in dropped}
 
-    def counterexamples(degenerate: bool) -> Iterator[Simulated]:
-        for system in systems_in_order(BOX, partial(_open_still, tuple(kept), degenerate)):
+    def counterexamples(poor: bool) -> Iterator[Simulated]:
+        for system in in_order(BOX, *_open_still(tuple(kept), poor)):
             lag = facets(system).lag
             for s in range(1 if "s >= lag" in dropped else max(lag, 1), max(lag, 1) + 1):
                 for x0, v in _showing_another_gap(system, s):
@@ -176,13 +173,13 @@ def _smallest(hypotheses: Mapping[str, Callable[[Simulated], bool]], bench: Work
     return first_found(counterexamples, f"{BOX}, v constant, a pulse, or one of ten random signals, entries in {{-1, 0, 1}}")
 
 
-def _open_still(kept: Collection[str], degenerate: bool, facts: Facts) -> Flags:
-    """Return which systems are degenerate, or are not, and may fail although they meet what is kept."""
-    found = flags(kept)(facts) & (poor(facts) == degenerate)
+def _open_still(kept: Collection[str], poor: bool) -> Iterator[str]:
+    """Yield expressions that say which systems are degenerate, or are not, and may fail although they meet what is kept."""
+    yield from expressions(kept)
+    yield POOR if poor else f"not ({POOR})"
     if FULL_ROW_RANK in kept or PERSISTENT in kept:
         # Excited data show the model's gap, which is m from the lag on: there is nothing to find where the lag is 1 at most.
-        found &= ~(facts.left_invertible & (facts.gap(1) == facts.m))
-    return np.asarray(found)
+        yield "not (left_invertible and gap(1) == m)"
 
 
 @lru_cache(maxsize=1 << 13)  # the same systems are gone through for each hypothesis that is dropped

@@ -1,11 +1,12 @@
 """Claims about one system and a window: their hypotheses, and the search for the smallest system where dropping one lets them fail.
 
     Windowed      a system by its evidence, and a window
-    Condition     a test on a Windowed, and its vectorised first look at many systems at once
+    Condition     a test on a Windowed, and the same in the language of claims, by which many systems are looked at together
+    says          the condition that an expression states: certificates tell what it reads
     windowed      an ablation made of conditions
 
-A first look never decides: it only leaves out what surely violates a hypothesis or surely meets the conclusion; what is left is decided
-by the certificates of the system.
+Where many systems are gone through, the language leaves out those that violate a hypothesis or meet the conclusion; what is left is decided
+by the certificates of each system.
 """
 
 from __future__ import annotations
@@ -14,18 +15,18 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 
-import numpy as np
-
+from ..boxes.box import Box, expression, rows_where
 from ..evidence.corpus import CORPUS, Evidence, Questions
-from ..evidence.questions import DELAY_KNOWN_STATE, OBSERVABILITY, RANKS, REACHABILITY
-from ..evidence.search import Box, Facts, Flags
+from ..language.certified import Certified, asked_by
+from ..language.evaluating import evaluate
+from ..quantities.batches import Batch
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Show, Workbench, size
 from .aimed import AIMED
-from .facets import degenerate, facets, nilpotent
+from .facets import MODEL, POOR, degenerate, facets
 
-BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
+BOX = Box(n=(1, 2), m=(1, 2), p=(1, 2), total=5)
 
 
 @dataclass(frozen=True)
@@ -51,9 +52,9 @@ class Windowed:
         return str(self.evidence.system.field)
 
     @property
-    def accepted(self) -> int:
-        """This is the number of accepted certificates, which count once a system, at its first window."""
-        return self.evidence.accepted if self.window <= 1 else 0
+    def accepted(self) -> frozenset[str]:
+        """These are the accepted certificates, by their SHA-256."""
+        return self.evidence.accepted
 
     @cached_property
     def degenerate(self) -> str:
@@ -68,48 +69,39 @@ class Windowed:
 class Condition:
     """This is a hypothesis or a conclusion about a system and a window.
 
-    `holds` decides on certificates. `first_look` at integer systems leaves out what surely violates it (of a hypothesis) or surely meets it
-    (of a conclusion). `asks` are the questions whose answers `holds` reads.
+    `holds` decides on certificates, which answer the questions `asks`. `look` says the same of integer systems in the language of claims,
+    with {s} for the number of samples; it is None where the language has no words for it.
     """
 
     asks: Questions
     holds: Callable[[Windowed], bool]
-    first_look: Callable[[Facts, int], Flags]
+    look: str | None
 
 
-OBSERVABLE = Condition((OBSERVABILITY,), lambda w: w.evidence.observable, lambda f, s: f.observable)
-CONTROLLABLE = Condition((REACHABILITY,), lambda w: w.evidence.controllable, lambda f, s: f.controllable)
-LEFT_INVERTIBLE = Condition((RANKS,), lambda w: w.evidence.left_invertible, lambda f, s: f.left_invertible)
-STABLE = Condition((), lambda w: facets(w.evidence.system).stable, lambda f, s: nilpotent(f))
+def says(text: str) -> Condition:
+    """Return the condition that an expression states, with {s} for the number of samples."""
+
+    def holds(subject: Windowed) -> bool:
+        return bool(evaluate(expression(text.format(s=subject.window)), Certified(subject.evidence)))
+
+    return Condition(asked_by(expression(text.format(s=1))), holds, text)
+
+
+OBSERVABLE, CONTROLLABLE, LEFT_INVERTIBLE = (says(MODEL[name]) for name in ("observable", "controllable", "left-invertible"))
+STABLE = Condition((), lambda w: facets(w.evidence.system).stable, MODEL["A stable"])
+EVERYTHING = Condition((), lambda w: True, None)
+FROM_DELAY = says("implies(delay_known < inf, delay_known <= {s})")
 
 
 def from_n(extra: int = 0) -> Condition:
     """Return the condition s >= n + extra."""
-    return Condition((), lambda w: w.window >= w.evidence.system.n + extra, lambda f, s: np.full(len(f.A), s >= f.n + extra))
+    return says(f"{{s}} >= n + {extra}")
 
 
 def from_lag(extra: int = 0) -> Condition:
     """Return the condition s >= lag + extra."""
+    return says(f"{{s}} >= lag + {extra}")
 
-    def first_look(facts: Facts, s: int) -> Flags:
-        reached = facts.gap(s - extra) == facts.gap(facts.n + 1) if s > extra else np.zeros(len(facts.A), dtype=np.bool_)
-        return np.asarray(reached | (facts.gap(0) == facts.gap(facts.n + 1)))
-
-    return Condition((RANKS,), lambda w: w.window >= w.evidence.kernel.lag + extra, first_look)
-
-
-def _from_delay(subject: Windowed) -> bool:
-    """Whether s >= l, the delay of left inversion with known initial state; there is no bound where there is no delay."""
-    delay = subject.evidence.delay_known_state
-    return delay is None or subject.window >= delay
-
-
-def _delay_look(facts: Facts, s: int) -> Flags:
-    return np.asarray((facts.delay_known_state <= s) | (facts.delay_known_state > facts.n))
-
-
-EVERYTHING = Condition((), lambda w: True, lambda f, s: np.full(len(f.A), True))
-FROM_DELAY = Condition((DELAY_KNOWN_STATE,), _from_delay, _delay_look)
 
 NO_WINDOW = range(0, 1)
 
@@ -167,24 +159,21 @@ def _smallest(
 ) -> Found[Windowed]:
     kept = [scope, *(condition for name, condition in hypotheses.items() if name not in dropped)]
 
+    def open_still(batch: Batch, s: int, poor: bool) -> set[int]:
+        """Return which systems are poor, or are not, meet what is kept as far as the language says it, and fail the conclusion."""
+        texts = [POOR if poor else f"not ({POOR})"]
+        texts += [] if conclusion.look is None else [f"not ({conclusion.look})"]
+        texts += [one.look for one in kept if one.look is not None]
+        return set(map(int, rows_where(tuple(text.format(s=s) for text in texts), batch)))
+
     def counterexamples(poor: bool) -> Iterator[Windowed]:
-        for facts in bench.searched(box):
-            looks: dict[int, Flags] = {}
-            for s in windows(facts.n):
-                open_still = ~conclusion.first_look(facts, s)
-                for condition in kept:
-                    if not open_still.any():
-                        break
-                    open_still &= condition.first_look(facts, s)
-                looks[s] = open_still
-            for index in np.flatnonzero(np.logical_or.reduce(list(looks.values()))):
-                system = facts.system(int(index))
-                if bool(degenerate(system)) != poor:
-                    continue
-                evidence = bench.examined(system, asks)
-                for s in windows(facts.n):
+        for batch in bench.searched(box):
+            looks = {s: open_still(batch, s, poor) for s in windows(batch.n)}
+            for index in sorted(set().union(*looks.values())):
+                evidence = bench.examined(batch.system(index), asks)
+                for s in windows(batch.n):
                     subject = Windowed(evidence, s)
-                    if looks[s][index] and all(c.holds(subject) for c in kept) and not conclusion.holds(subject):
+                    if index in looks[s] and all(c.holds(subject) for c in kept) and not conclusion.holds(subject):
                         yield subject
 
     return first_found(counterexamples, str(box))

@@ -47,6 +47,9 @@ def read(text: str, kind: Kind = WORD, vocabulary: Vocabulary = ABOUT_A_SYSTEM) 
     if len(text) > LONGEST:
         raise InvalidInput(f"got {len(text)} characters, expected at most {LONGEST}")
     text = " ".join(text.split())  # a text of several lines is one expression
+    if not text.isascii():  # Python takes other letters that look alike for these
+        place = next(i for i, letter in enumerate(text) if not letter.isascii())
+        raise InvalidInput(f"column {place + 1}: got {shorten(text[place])}, expected letters, digits and signs of ASCII")
     try:
         tree = ast.parse(text, mode="eval")
     except SyntaxError as error:

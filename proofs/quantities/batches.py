@@ -104,6 +104,10 @@ class Batch(Many):
             return self
         return Batch(self.A[rows], self.F[rows], self.C[rows], self.G[rows], self.prime, self.denominator, self.number_field)
 
+    def with_faults(self, rows: Chosen, F: Integers, G: Integers) -> Batch:
+        """Return A and C of these rows, each as often as it is named, with other F and G."""
+        return Batch(self.A[rows], F, self.C[rows], G, self.prime, self.denominator, self.number_field)
+
     def transposed(self) -> Batch:
         """Return (A', C', F', G')."""
         A, F, C, G = (transposed(part, self.degree) for part in (self.A, self.C, self.F, self.G))

@@ -19,7 +19,7 @@ from ...exact.structure.behavior import Comparison, compare
 from ...exact.structure.fault_columns import with_pair
 from ...exact.structure.signals import Trajectory, simulate
 from ...exact.system.systems import FaultySystem, ResidualSystem
-from .subjects import Subject
+from ..evidence.subjects import Subject
 
 
 @dataclass(frozen=True)

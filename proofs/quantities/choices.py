@@ -12,27 +12,27 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
-from ...exact.algebra.fields import NumberField
 from .batches import Batch
 from .blocks import exactly
 from .cases import Choice
 from .elimination import Integers, Overflow
-from .many import Chosen, Column, Many
+from .many import Both, Chosen, Column
 from .pairs import OF_A_PAIR, TOGETHER, together
 from .registry import Kind, Quantity
 
 
 @dataclass
-class Choices(Many):
-    """Choice i is the system `firsts[i]` of `first`, the chosen system i of `second`, and P[i], of which the first heights[i] rows count.
+class Choices(Both):
+    """Choice i has the chosen system i of `second`, and P[i], of which the first heights[i] rows count.
 
     F and G of the chosen system are `scales[i]` times what they should be.
     """
 
+    called: ClassVar[tuple[str, str]] = ("", "chosen")
     first: Batch
     firsts: Chosen
     second: Batch
@@ -41,38 +41,15 @@ class Choices(Many):
     scales: Integers
     _columns: dict[object, Column] = field(default_factory=dict)
 
-    def __len__(self) -> int:
-        return len(self.firsts)
-
     @property
     def own(self) -> Mapping[str, Any]:  # type: ignore[override]
         """These are the quantities of a choice."""
         return OF_A_CHOICE
 
     @property
-    def prime(self) -> int | None:  # type: ignore[override]
-        """This is that of the systems."""
-        return self.first.prime
-
-    @property
-    def number_field(self) -> NumberField | None:  # type: ignore[override]
-        """This is that of the systems."""
-        return self.first.number_field
-
-    @property
-    def denominator(self) -> int:  # type: ignore[override]
-        """This is that of all systems."""
-        return self.first.denominator
-
-    @property
-    def seconds(self) -> Chosen:
+    def seconds(self) -> Chosen:  # type: ignore[override]
         """Each chosen system stands once."""
         return np.arange(len(self))
-
-    @property
-    def sizes(self) -> Mapping[str, tuple[int, int, int]]:
-        """These are n, m, p of the system and of the chosen one."""
-        return {name: (one.n, one.m, one.p) for name, one in (("", self.first), ("chosen", self.second))}
 
     def case(self, index: int) -> Choice:
         """Return one of the choices."""
@@ -95,14 +72,9 @@ class Choices(Many):
 
     def column(self, key: Any, rows: Chosen, find: Callable[[Any], Integers] | None = None) -> Integers:
         """Return the numbers of a family of one of the systems, of both together, or of what `find` finds. Raises Overflow."""
-        if isinstance(key, tuple):
-            return self.second.column(key[1], rows)
         if key == TOGETHER:
             return self.kept(key, rows, together)
-        if find is not None:
-            return self.kept(key, rows, lambda part: part.by_height(find))
-        distinct, which = np.unique(self.firsts[rows], return_inverse=True)
-        return self.first.column(key, distinct)[which]
+        return self.of_system(key, rows) if find is None else self.kept(key, rows, lambda part: part.by_height(find))
 
     def by_height(self, find: Callable[[Choices], Integers]) -> Integers:
         """Return what `find` finds, asked about those with as many rows in P at once; narrower rows are filled up with zeros."""

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from . import certified
+from ..evidence import certified
+from ..evidence import questions as ask
 from .ranks import OBSERVED, REACHED
-from .registry import Kind, Quantity
+from .registry import Kind, Quantity, Told
 
 QUANTITIES = (
     Quantity(
         "normal_rank",
         Kind.INTEGER,
-        "the rank of C (qI - A)^-1 F + G for almost every q",
+        "the rank of C (qI - A)^-1 F + G over the rational functions of q",
         lambda x: x.kernel.normal_rank,
         lambda r: r.normal_rank,
         certified.windows,
+        told=Told((ask.RANKS,), lambda e: e.kernel.normal_rank),
+        at_most=("m", "p"),
     ),
     Quantity(
         "left_minimal_indices",
@@ -22,6 +25,8 @@ QUANTITIES = (
         lambda x: x.kernel.left_minimal_indices,
         lambda r: r.left_minimal_indices,
         certified.windows,
+        told=Told((ask.RANKS,), lambda e: e.kernel.left_minimal_indices),
+        balance=("p", "normal_rank"),
     ),
     Quantity(
         "right_minimal_indices",
@@ -30,6 +35,8 @@ QUANTITIES = (
         lambda x: x.dual.left_minimal_indices,
         lambda r: r.right_minimal_indices,
         certified.dual_windows,
+        told=Told((ask.RIGHT_INDICES,), lambda e: e.right_minimal_indices),
+        balance=("m", "normal_rank"),
     ),
     Quantity(
         "lag",
@@ -38,6 +45,8 @@ QUANTITIES = (
         lambda x: x.kernel.lag,
         lambda r: max(r.left_minimal_indices, default=0),
         certified.windows,
+        told=Told((ask.RANKS,), lambda e: e.kernel.lag),
+        at_most=("sum(left_minimal_indices)",),
     ),
     Quantity(
         "observability_index",
@@ -46,6 +55,7 @@ QUANTITIES = (
         lambda x: x.silent.lag,
         lambda r: r.settled(OBSERVED),
         certified.silent_windows,
+        at_most=("n",),
     ),
     Quantity(
         "controllability_index",
@@ -54,5 +64,6 @@ QUANTITIES = (
         lambda x: x.reached.lag,
         lambda r: r.settled(REACHED),
         certified.reached_windows,
+        at_most=("n",),
     ),
 )

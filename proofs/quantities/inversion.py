@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from math import inf
 
-from . import certified
+from ...exact.structure.inversion import delay_known_state, delay_unknown_state
+from ..evidence import certified
+from ..evidence import questions as ask
 from .ranks import DRIVEN, LATER, WINDOW, Ranks
-from .registry import Kind, Quantity
+from .registry import Kind, Quantity, Told
 
 
 def _or_inf(delay: int | None) -> float:
@@ -28,17 +30,21 @@ QUANTITIES = (
         "delay_known",
         Kind.INTEGER,
         "the least l with which r(0), ..., r(l) determine v(0), the initial state being known; inf where none does",
-        lambda x: _or_inf(x.delay_known),
+        lambda x: _or_inf(delay_known_state(x.kernel)),
         _known,
         certified.delay_known,
+        told=Told((ask.DELAY_KNOWN_STATE,), lambda e: _or_inf(e.delay_known_state)),
+        infinite=True,
     ),
     Quantity(
         "delay_unknown",
         Kind.INTEGER,
         "the least l with which r(0), ..., r(l) determine v(0) whatever x(0) is; inf where none does",
-        lambda x: _or_inf(x.delay_unknown),
+        lambda x: _or_inf(delay_unknown_state(x.kernel)),
         _unknown,
         certified.delay_unknown,
+        told=Told((ask.DELAY_UNKNOWN_STATE,), lambda e: _or_inf(e.delay_unknown_state)),
+        infinite=True,
     ),
     Quantity(
         "left_invertible",
@@ -47,6 +53,8 @@ QUANTITIES = (
         lambda x: x.kernel.normal_rank == x.system.m,
         lambda r: r.normal_rank == r.m,
         certified.invertible,
+        told=Told((ask.RANKS,), lambda e: e.left_invertible),
+        balance=("normal_rank", "m"),
     ),
     Quantity(
         "right_invertible",
@@ -55,5 +63,7 @@ QUANTITIES = (
         lambda x: x.kernel.normal_rank == x.system.p,
         lambda r: r.normal_rank == r.p,
         certified.dual_invertible,
+        told=Told((ask.RANKS,), lambda e: e.kernel.normal_rank == e.system.p),
+        balance=("normal_rank", "p"),
     ),
 )

@@ -1,7 +1,8 @@
 """Many cases of the same sizes, one a row, and what is found out about all of them together.
 
 Many         systems (`Batch`), pairs (`Pairs`): what the language asks of them when it decides many at once
-column       the numbers of a family for some of the cases, found once
+Both         cases that have two systems each
+Column       the numbers of a family for some of the cases, found once
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -97,3 +98,50 @@ class Many(ABC):
             column.values[missing, : found.shape[1]] = found
             column.done[missing] = True
         return column.values[rows]
+
+
+class Both(Many):
+    """Case i has the system `firsts[i]` of `first` and the system `seconds[i]` of `second`; `called` are the names of the two."""
+
+    called: ClassVar[tuple[str, str]]
+    first: Any
+    firsts: Chosen
+    second: Any
+    seconds: Chosen
+
+    def __len__(self) -> int:
+        return len(self.firsts)
+
+    @property
+    def prime(self) -> int | None:  # type: ignore[override]
+        """This is that of the systems."""
+        found: int | None = self.first.prime
+        return found
+
+    @property
+    def number_field(self) -> NumberField | None:  # type: ignore[override]
+        """This is that of the systems."""
+        found: NumberField | None = self.first.number_field
+        return found
+
+    @property
+    def denominator(self) -> int:  # type: ignore[override]
+        """This is that of all entries."""
+        return int(self.first.denominator)
+
+    @property
+    def sizes(self) -> Mapping[str, tuple[int, int, int]]:
+        """These are n, m, p of both systems."""
+        return {name: (one.n, one.m, one.p) for name, one in zip(self.called, (self.first, self.second), strict=True)}
+
+    def systems(self, subject: str) -> tuple[Any, Chosen]:
+        """Return the systems with this name, those of all cases together, and which of them each case has."""
+        return (self.second, self.seconds) if subject == self.called[1] else (self.first, self.firsts)
+
+    def of_system(self, key: Any, rows: Chosen) -> Integers:
+        """Return the numbers of a family of one of the two systems, of the first where the key names none. Raises Overflow."""
+        subject, family = key if isinstance(key, tuple) else (self.called[0], key)
+        batch, places = self.systems(subject)
+        distinct, which = np.unique(places[rows], return_inverse=True)
+        found: Integers = batch.column(family, distinct)[which]
+        return found

@@ -15,11 +15,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from math import inf
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
-from ...exact.algebra.fields import NumberField
 from ...exact.algebra.matrices import Matrix, beside, stacked
 from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import comparison_certificate
@@ -28,7 +27,7 @@ from ..trust.structure_certificates import Certificate
 from .batches import Batch, window
 from .cases import Pair, PairSubject
 from .elimination import Integers, leading_ranks
-from .many import Chosen, Column, Many
+from .many import Both, Chosen, Column
 from .ranks import WINDOW, Numbers
 from .registry import Kind, Quantity
 
@@ -36,43 +35,21 @@ TOGETHER = "OT side by side"
 
 
 @dataclass
-class Pairs(Many):
-    """Pair i is the system `firsts[i]` of `first` and the system `seconds[i]` of `second`, each a batch of systems that differ."""
+class Pairs(Both):
+    """Many pairs, `first` and `second` being batches of systems that differ."""
 
+    called: ClassVar[tuple[str, str]] = ("first", "second")
     first: Batch
-    second: Batch
     firsts: Chosen
+    second: Batch
     seconds: Chosen
     one_A_and_C: bool = False
     _columns: dict[object, Column] = field(default_factory=dict)
-
-    def __len__(self) -> int:
-        return len(self.firsts)
 
     @property
     def own(self) -> Mapping[str, Any]:  # type: ignore[override]
         """These are the quantities of a pair."""
         return OF_ONE_A_AND_C if self.one_A_and_C else OF_A_PAIR
-
-    @property
-    def prime(self) -> int | None:  # type: ignore[override]
-        """This is that of both batches."""
-        return self.first.prime
-
-    @property
-    def number_field(self) -> NumberField | None:  # type: ignore[override]
-        """This is that of the systems."""
-        return self.first.number_field
-
-    @property
-    def denominator(self) -> int:  # type: ignore[override]
-        """This is that of all systems."""
-        return self.first.denominator
-
-    @property
-    def sizes(self) -> Mapping[str, tuple[int, int, int]]:
-        """These are n, m, p of both systems."""
-        return {name: (one.n, one.m, one.p) for name, one in (("first", self.first), ("second", self.second))}
 
     def case(self, index: int) -> Pair:
         """Return one of the pairs."""
@@ -80,28 +57,24 @@ class Pairs(Many):
 
     def matrix(self, subject: str, name: str) -> Integers:
         """Return A, F, C or G of one of the two systems of every pair; A and C alone are those that both have."""
-        batch, places = (self.second, self.seconds) if subject == "second" else (self.first, self.firsts)
-        return batch.matrix("", name)[places]
+        batch, places = self.systems(subject)
+        found: Integers = batch.matrix("", name)[places]
+        return found
 
     def part(self, rows: Chosen) -> Pairs:
         """Return the pairs of these rows; what is known of the systems stays known."""
-        return Pairs(self.first, self.second, self.firsts[rows], self.seconds[rows], self.one_A_and_C)
+        return Pairs(self.first, self.firsts[rows], self.second, self.seconds[rows], self.one_A_and_C)
 
     def column(self, key: Any, rows: Chosen, find: Callable[[Any], Integers] | None = None) -> Integers:
         """Return the numbers of a family of one of the systems, of both together, or of what `find` finds. Raises Overflow."""
-        if isinstance(key, tuple):
-            subject, family = key
-            batch, places = (self.second, self.seconds) if subject == "second" else (self.first, self.firsts)
-            distinct, which = np.unique(places[rows], return_inverse=True)
-            return batch.column(family, distinct)[which]
-        return self.kept(key, rows, find or together)
+        return self.of_system(key, rows) if isinstance(key, tuple) else self.kept(key, rows, find or together)
 
 
-def together(pairs: Any) -> Integers:
+def together(pairs: Both) -> Integers:
     """Return rank [O_s T_s] of both systems side by side, of pairs or choices; s = 0, ..., n + 1. Raises Overflow."""
     samples = max(pairs.first.n, pairs.second.n) + 1
     built = []
-    for batch, places in ((pairs.first, pairs.firsts), (pairs.second, pairs.seconds)):
+    for batch, places in map(pairs.systems, pairs.called):
         distinct, which = np.unique(places, return_inverse=True)
         built.append(window(batch.part(distinct), samples)[which])
     ranks = leading_ranks(np.concatenate(built, axis=2), pairs.prime)

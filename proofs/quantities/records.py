@@ -11,11 +11,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
-from ...exact.algebra.fields import NumberField
 from ...exact.algebra.matrices import Matrix, beside, rank, stacked
 from ...exact.structure.signals import excitation_matrix, hankel
 from ...exact.system.systems import FaultySystem, ResidualSystem
@@ -25,52 +24,29 @@ from .batches import Batch
 from .blocks import exactly, transposed
 from .cases import Record, RecordSubject
 from .elimination import Integers, leading_ranks
-from .many import Chosen, Column, Many
-from .ranks import Numbers
+from .many import Both, Chosen, Column
 from .registry import Kind, Quantity
 
 INPUT, OUTPUT, BOTH, STATE = "Hankel of u", "Hankel of y", "Hankel of [u; y]", "[X; U]"
 
 
 @dataclass
-class Records(Many):
-    """Record i is the system `firsts[i]` of `first`, (A, B, C, D) number `seconds[i]` of `inputs`, u[i] (N, nu), x0[i] (n, 1)."""
+class Records(Both):
+    """Many records: `first` has the systems (A, F, C, G), `second` those of the inputs, (A, B, C, D); u[i] is (N, nu), x0[i] (n, 1)."""
 
+    called: ClassVar[tuple[str, str]] = ("", "inputs")
     first: Batch
     firsts: Chosen
-    inputs: Batch
+    second: Batch
     seconds: Chosen
     u: Integers
     x0: Integers
     _columns: dict[object, Column] = field(default_factory=dict)
 
-    def __len__(self) -> int:
-        return len(self.firsts)
-
     @property
     def own(self) -> Mapping[str, Any]:  # type: ignore[override]
         """These are the quantities of a record."""
         return OF_A_RECORD
-
-    @property
-    def prime(self) -> int | None:  # type: ignore[override]
-        """This is that of the systems."""
-        return self.first.prime
-
-    @property
-    def number_field(self) -> NumberField | None:  # type: ignore[override]
-        """This is that of the systems."""
-        return self.first.number_field
-
-    @property
-    def denominator(self) -> int:  # type: ignore[override]
-        """This is that of all entries."""
-        return self.first.denominator
-
-    @property
-    def sizes(self) -> Mapping[str, tuple[int, int, int]]:
-        """These are n, m, p of the system, and n, nu, p of (A, B, C, D)."""
-        return {name: (one.n, one.m, one.p) for name, one in (("", self.first), ("inputs", self.inputs))}
 
     @property
     def samples(self) -> int:
@@ -79,21 +55,21 @@ class Records(Many):
 
     def case(self, index: int) -> Record:
         """Return one of the records."""
-        system, inputs = self.first.system(int(self.firsts[index])), self.inputs.system(int(self.seconds[index]))
+        system, inputs = self.first.system(int(self.firsts[index])), self.second.system(int(self.seconds[index]))
         u, x0 = (exactly(part[index], self.denominator, self.number_field, self.prime) for part in (self.u, self.x0))
         return Record(FaultySystem(system, inputs.F, inputs.G), u, x0)
 
     def matrix(self, subject: str, name: str) -> Integers:
         """Return A, F, C or G of one of the two systems, B, D, u or x0."""
         if subject or name in ("B", "D"):
-            return self.inputs.matrix("", {"B": "F", "D": "G"}.get(name, name))[self.seconds]
+            return self.second.matrix("", {"B": "F", "D": "G"}.get(name, name))[self.seconds]
         if name in ("u", "x0"):
             return self.u if name == "u" else self.x0
         return self.first.matrix("", name)[self.firsts]
 
     def part(self, rows: Chosen) -> Records:
         """Return the records of these rows; what is known of the systems stays known."""
-        return Records(self.first, self.firsts[rows], self.inputs, self.seconds[rows], self.u[rows], self.x0[rows])
+        return Records(self.first, self.firsts[rows], self.second, self.seconds[rows], self.u[rows], self.x0[rows])
 
     def column(self, key: Any, rows: Chosen, find: Callable[[Any], Integers] | None = None) -> Integers:
         """Return the numbers of a family of one of the systems, of the data, or of what `find` finds. Raises Overflow."""
@@ -102,9 +78,7 @@ class Records(Many):
         if isinstance(key, tuple) and key[0] in DATA:
             family, k = key
             return self.kept(key, rows, lambda part: leading_ranks(DATA[family](part, k), part.prime)[:, -1:] // part.degree)
-        batch, places, name = (self.inputs, self.seconds, key[1]) if isinstance(key, tuple) else (self.first, self.firsts, key)
-        distinct, which = np.unique(places[rows], return_inverse=True)
-        return batch.column(name, distinct)[which]
+        return self.of_system(key, rows)
 
     @property
     def inputs_in_time(self) -> Integers:
@@ -115,7 +89,7 @@ class Records(Many):
 
     def trajectory(self) -> tuple[Integers, Integers]:
         """Return the states x(0), ..., x(N) as columns (cases, N + 1, n d, d), and outputs (cases, N, p d, d). Raises Overflow."""
-        A, B, C, D = (self.inputs.matrix("", name)[self.seconds] for name in "AFCG")
+        A, B, C, D = (self.second.matrix("", name)[self.seconds] for name in "AFCG")
         state, states, outputs = self.x0, [self.x0], []
         for u in np.moveaxis(self.inputs_in_time, 1, 0):
             outputs.append(self.sum(self.product(C, state), self.product(D, u)))
@@ -143,127 +117,89 @@ def _side_by_side(columns: Integers) -> Integers:
     return np.swapaxes(columns, 1, 2).reshape(count, height, samples * d)
 
 
-def _of_output(records: Records, k: int) -> Integers:
-    return _hankel(records.trajectory()[1], k)
-
-
-def _of_both(records: Records, k: int) -> Integers:
-    return _hankel(np.concatenate([records.inputs_in_time, records.trajectory()[1]], axis=2), k)
-
-
 def _of_state(records: Records, k: int) -> Integers:
     states = records.trajectory()[0][:, : records.samples - k + 1]
     return np.concatenate([_side_by_side(states), _hankel(records.inputs_in_time, k)], axis=1)
 
 
-def _of_input(records: Records, k: int) -> Integers:
-    return _hankel(records.inputs_in_time, k)
+DATA: dict[str, Callable[[Records, int], Integers]] = {
+    INPUT: lambda records, k: _hankel(records.inputs_in_time, k),
+    OUTPUT: lambda records, k: _hankel(records.trajectory()[1], k),
+    BOTH: lambda records, k: _hankel(np.concatenate([records.inputs_in_time, records.trajectory()[1]], axis=2), k),
+    STATE: _of_state,
+}
 
 
-DATA: dict[str, Callable[[Records, int], Integers]] = {INPUT: _of_input, OUTPUT: _of_output, BOTH: _of_both, STATE: _of_state}
-
-
-def _from_data(family: str) -> Callable[[Numbers, int], int]:
-    return lambda numbers, k: numbers.table((family, k))[0] if k <= numbers.samples else 0
-
-
-def _exciting(numbers: Numbers, k: int) -> bool:
-    return k <= numbers.samples and _from_data(INPUT)(numbers, k) == numbers.sizes["inputs"][1] * k
-
-
-def _u_rank(record: RecordSubject, k: int) -> int:
-    return rank(hankel(record.u, k)) if k <= record.u.nrows else 0
-
-
-def _y_rank(record: RecordSubject, k: int) -> int:
-    return rank(hankel(record.trajectory.residuals, k)) if k <= record.u.nrows else 0
-
-
-def _w_rank(record: RecordSubject, k: int) -> int:
-    return rank(hankel(beside(record.u, record.trajectory.residuals), k)) if k <= record.u.nrows else 0
-
-
-def _x_rank(record: RecordSubject, k: int) -> int:
-    return rank(excitation_matrix(record.trajectory, k)) if k <= record.u.nrows else 0
-
-
-def _u_borne(record: RecordSubject, k: int) -> list[Certificate]:
-    """Return the certificate of the rank, u being the output of the system without states and the feedthrough I; none beyond N."""
-    if k > record.u.nrows:
-        return []
+def _input_alone(record: RecordSubject) -> tuple[ResidualSystem, Matrix]:
+    """Return the system without states and with the feedthrough I, of which u is the output."""
     field, nu = record.u.field, record.u.ncols
-    system = ResidualSystem(Matrix.zero(field, 0, 0), Matrix.zero(field, 0, nu), Matrix.zero(field, nu, 0), Matrix.identity(field, nu))
-    return [make.data_rank("residual-hankel", system, Matrix.zero(field, 0, 1), record.u, k)]
+    parts = Matrix.zero(field, 0, 0), Matrix.zero(field, 0, nu), Matrix.zero(field, nu, 0), Matrix.identity(field, nu)
+    return ResidualSystem(*parts), Matrix.zero(field, 0, 1)
 
 
-def _y_borne(record: RecordSubject, k: int) -> list[Certificate]:
-    if k > record.u.nrows:
-        return []
-    return [make.data_rank("residual-hankel", record.inputs.system, record.x0, record.u, k)]
-
-
-def _w_borne(record: RecordSubject, k: int) -> list[Certificate]:
-    """Return the certificate of the rank, [u; y] being the output of (A, B, [0; C], [I; D])."""
-    if k > record.u.nrows:
-        return []
+def _both(record: RecordSubject) -> tuple[ResidualSystem, Matrix]:
+    """Return (A, B, [0; C], [I; D]), of which [u; y] is the output."""
     one = record.inputs.system
     C = stacked(Matrix.zero(one.field, one.m, one.n), one.C)
-    G = stacked(Matrix.identity(one.field, one.m), one.G)
-    return [make.data_rank("residual-hankel", ResidualSystem(one.A, one.F, C, G), record.x0, record.u, k)]
+    return ResidualSystem(one.A, one.F, C, stacked(Matrix.identity(one.field, one.m), one.G)), record.x0
 
 
-def _x_borne(record: RecordSubject, k: int) -> list[Certificate]:
-    if k > record.u.nrows:
-        return []
-    return [make.data_rank("excitation", record.inputs.system, record.x0, record.u, k)]
+def _itself(record: RecordSubject) -> tuple[ResidualSystem, Matrix]:
+    return record.inputs.system, record.x0
 
 
+def _data_rank(
+    name: str,
+    meaning: str,
+    family: str,
+    built: Callable[[RecordSubject, int], Matrix],
+    shown: Callable[[RecordSubject], tuple[ResidualSystem, Matrix]],
+    kind: str = "residual-hankel",
+) -> Quantity:
+    """Return the rank of a matrix of data, 0 beyond N; the certificate says it of a system, from its initial state, driven by u."""
+
+    def borne(record: RecordSubject, k: int) -> list[Certificate]:
+        return [make.data_rank(kind, *shown(record), record.u, k)] if k <= record.u.nrows else []
+
+    return Quantity(
+        name,
+        Kind.INTEGER,
+        f"{meaning}; 0 beyond N",
+        lambda x, k: rank(built(x, k)) if k <= x.u.nrows else 0,
+        lambda r, k: r.table((family, k))[0] if k <= r.samples else 0,
+        borne,
+        windowed=True,
+    )
+
+
+def _y(record: RecordSubject) -> Matrix:
+    return record.trajectory.residuals
+
+
+_U = _data_rank("u_rank", "the rank of the Hankel matrix of u with s block rows", INPUT, lambda x, k: hankel(x.u, k), _input_alone)
 _LISTED = (
     Quantity("N", Kind.INTEGER, "the number of samples", lambda x: x.u.nrows, lambda r: r.samples, lambda x: []),
     Quantity("nu", Kind.INTEGER, "the number of inputs", lambda x: x.u.ncols, lambda r: r.sizes["inputs"][1], lambda x: []),
-    Quantity(
-        "u_rank",
-        Kind.INTEGER,
-        "the rank of the Hankel matrix of u with s block rows; 0 beyond N",
-        _u_rank,
-        _from_data(INPUT),
-        _u_borne,
-        windowed=True,
+    _U,
+    _data_rank("y_rank", "the rank of the Hankel matrix of y with s block rows", OUTPUT, lambda x, k: hankel(_y(x), k), _itself),
+    _data_rank(
+        "w_rank", "the rank of the Hankel matrix of [u; y] with s block rows", BOTH, lambda x, k: hankel(beside(x.u, _y(x)), k), _both
     ),
-    Quantity(
-        "y_rank",
-        Kind.INTEGER,
-        "the rank of the Hankel matrix of y with s block rows; 0 beyond N",
-        _y_rank,
-        _from_data(OUTPUT),
-        _y_borne,
-        windowed=True,
-    ),
-    Quantity(
-        "w_rank",
-        Kind.INTEGER,
-        "the rank of the Hankel matrix of [u; y] with s block rows; 0 beyond N",
-        _w_rank,
-        _from_data(BOTH),
-        _w_borne,
-        windowed=True,
-    ),
-    Quantity(
+    _data_rank(
         "x_rank",
-        Kind.INTEGER,
-        "the rank of [X; U_s], X = [x(0), ..., x(N - s)]; 0 beyond N",
-        _x_rank,
-        _from_data(STATE),
-        _x_borne,
-        windowed=True,
+        "the rank of [X; U_s], X = [x(0), ..., x(N - s)]",
+        STATE,
+        lambda x, k: excitation_matrix(x.trajectory, k),
+        _itself,
+        "excitation",
     ),
     Quantity(
         "exciting",
         Kind.WORD,
         "u is persistently exciting of order s: u_rank(s) = nu s, and s <= N",
-        lambda x, k: k <= x.u.nrows and _u_rank(x, k) == x.u.ncols * k,
-        _exciting,
-        _u_borne,
+        lambda x, k: k <= x.u.nrows and _U.exact(x, k) == x.u.ncols * k,
+        lambda r, k: k <= r.samples and _U.from_ranks(r, k) == r.sizes["inputs"][1] * k,
+        _U.certificates,
         windowed=True,
     ),
 )

@@ -7,9 +7,10 @@ rank [R_n; T_n] - rank T_n that of S*, R_n = [A^(n-1) F, ..., F]. S* is the orth
 
 from __future__ import annotations
 
-from . import certified
+from ..evidence import certified
+from ..evidence import questions as ask
 from .ranks import DRIVEN, OBSERVED, REACHED, SILENT, WINDOW
-from .registry import Kind, Quantity
+from .registry import Kind, Quantity, Told
 
 QUANTITIES = (
     Quantity(
@@ -19,6 +20,8 @@ QUANTITIES = (
         lambda x: x.system.n - x.silent.rank(x.system.n),
         lambda r: r.n - r.at(OBSERVED, r.n),
         certified.observed,
+        told=Told((ask.OBSERVABILITY,), lambda e: e.system.n - e.answer(ask.OBSERVABILITY)),
+        at_most=("n",),
     ),
     Quantity(
         "uncontrollable_dimension",
@@ -27,6 +30,8 @@ QUANTITIES = (
         lambda x: x.system.n - x.reached.rank(x.system.n),
         lambda r: r.n - r.at(REACHED, r.n),
         certified.reached,
+        told=Told((ask.REACHABILITY,), lambda e: e.system.n - e.answer(ask.REACHABILITY)),
+        at_most=("n",),
     ),
     Quantity(
         "weakly_unobservable_dimension",
@@ -35,6 +40,7 @@ QUANTITIES = (
         lambda x: x.weakly_unobservable.ncols,
         lambda r: r.n - r.at(WINDOW, r.n) + r.at(DRIVEN, r.n),
         certified.settled,
+        at_most=("n",),
     ),
     Quantity(
         "strongly_reachable_dimension",
@@ -43,6 +49,7 @@ QUANTITIES = (
         lambda x: x.strongly_reachable.ncols,
         lambda r: r.table(SILENT)[0] - r.at(DRIVEN, r.n),
         certified.dual_settled,
+        at_most=("n",),
     ),
     Quantity(
         "observable",
@@ -51,6 +58,8 @@ QUANTITIES = (
         lambda x: x.silent.rank(x.system.n) == x.system.n,
         lambda r: r.at(OBSERVED, r.n) == r.n,
         certified.observed,
+        told=Told((ask.OBSERVABILITY,), lambda e: e.observable),
+        balance=("unobservable_dimension", ""),
     ),
     Quantity(
         "controllable",
@@ -59,6 +68,8 @@ QUANTITIES = (
         lambda x: x.reached.rank(x.system.n) == x.system.n,
         lambda r: r.at(REACHED, r.n) == r.n,
         certified.reached,
+        told=Told((ask.REACHABILITY,), lambda e: e.controllable),
+        balance=("uncontrollable_dimension", ""),
     ),
     Quantity(
         "minimal",
@@ -67,5 +78,7 @@ QUANTITIES = (
         lambda x: x.silent.rank(x.system.n) == x.system.n == x.reached.rank(x.system.n),
         lambda r: r.at(OBSERVED, r.n) == r.n == r.at(REACHED, r.n),
         certified.both,
+        told=Told((ask.OBSERVABILITY, ask.REACHABILITY), lambda e: e.observable and e.controllable),
+        parts=("observable", "controllable"),
     ),
 )

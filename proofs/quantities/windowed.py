@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from ...exact.structure.fault_columns import fault_space_dimension
-from . import certified
+from ..evidence import certified
+from ..evidence import questions as ask
+from ..evidence.corpus import Evidence
+from ..evidence.subjects import Subject
 from .ranks import DRIVEN, OBSERVED, WINDOW, Ranks
-from .registry import Kind, Quantity
-from .subjects import Subject
+from .registry import Kind, Quantity, Told
 
 
 def _driven(subject: Subject, s: int) -> int:
@@ -16,6 +18,11 @@ def _driven(subject: Subject, s: int) -> int:
 
 def _solutions(ranks: Ranks, s: int) -> int:
     return ranks.n + ranks.p - sum(mu + 1 for mu in ranks.left_minimal_indices if mu < s)
+
+
+def _told_solutions(evidence: Evidence, s: int) -> int:
+    """There are certificates for s = 1, ..., n + 2; from n + 1 on the dimension stays as it is, and on no sample every column solves."""
+    return evidence.space_dimensions[min(s, evidence.system.n + 2) - 1] if s else evidence.system.n + evidence.system.p
 
 
 QUANTITIES = (
@@ -28,7 +35,15 @@ QUANTITIES = (
         certified.silent_windows,
         windowed=True,
     ),
-    Quantity("rank_T", Kind.INTEGER, "rank T_s", _driven, lambda r, s: r.at(DRIVEN, s), certified.driven, windowed=True),
+    Quantity(
+        "rank_T",
+        Kind.INTEGER,
+        "rank T_s",
+        _driven,
+        lambda r, s: r.at(DRIVEN, s),
+        certified.driven,
+        windowed=True,
+    ),
     Quantity(
         "rank_OT",
         Kind.INTEGER,
@@ -37,6 +52,7 @@ QUANTITIES = (
         lambda r, s: r.at(WINDOW, s),
         certified.windows,
         windowed=True,
+        told=Told((ask.RANKS,), lambda e, s: e.kernel.rank(s)),
     ),
     Quantity(
         "gap",
@@ -46,6 +62,7 @@ QUANTITIES = (
         lambda r, s: r.step(WINDOW, s),
         certified.windows,
         windowed=True,
+        told=Told((ask.RANKS,), lambda e, s: e.kernel.gap(s)),
     ),
     Quantity(
         "solutions",
@@ -55,6 +72,7 @@ QUANTITIES = (
         _solutions,
         certified.solutions,
         windowed=True,
+        told=Told((ask.WINDOW_SPACES,), _told_solutions),
     ),
     Quantity(
         "n_z",
@@ -63,5 +81,6 @@ QUANTITIES = (
         lambda x: fault_space_dimension(x.kernel),
         lambda r: _solutions(r, r.n + 1),
         certified.solutions,
+        told=Told((ask.SPACE,), lambda e: e.fault_space.dimension),
     ),
 )

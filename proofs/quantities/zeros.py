@@ -17,10 +17,11 @@ from ...exact.algebra.embeddings import inside_the_circle, stable_there
 from ...exact.algebra.matrices import rank, stacked
 from ...exact.algebra.polynomials import interpolate
 from ...exact.algebra.stability import is_schur
-from . import certified
+from ..evidence import certified
+from ..evidence import questions as ask
+from ..evidence.subjects import Subject
 from .ranks import CHARACTERISTIC, MINORS, Ranks
-from .registry import Kind, Quantity
-from .subjects import Subject
+from .registry import Kind, Quantity, Told
 
 
 def zero_polynomial(ranks: Ranks) -> tuple[Fraction, ...]:
@@ -61,6 +62,7 @@ QUANTITIES = (
         lambda x: x.finite_zeros,
         lambda r: r.finite_zeros,
         certified.finite,
+        told=Told((ask.FINITE_ZEROS,), lambda e: e.finite_zeros),
     ),
     Quantity(
         "infinite_zero_orders",
@@ -69,6 +71,8 @@ QUANTITIES = (
         lambda x: x.infinite_zero_orders,
         lambda r: r.infinite_zero_orders,
         certified.infinite,
+        told=Told((ask.INFINITE_ZEROS,), lambda e: e.infinite_zero_orders),
+        balance=("normal_rank", ""),
     ),
     Quantity(
         "infinite_zeros",
@@ -77,6 +81,7 @@ QUANTITIES = (
         lambda x: sum(x.infinite_zero_orders),
         lambda r: sum(r.infinite_zero_orders),
         certified.infinite,
+        told=Told((ask.INFINITE_ZEROS,), lambda e: sum(e.infinite_zero_orders)),
     ),
     Quantity(
         "zeta",
@@ -85,6 +90,8 @@ QUANTITIES = (
         lambda x: x.finite_zeros + sum(x.infinite_zero_orders),
         lambda r: r.finite_zeros + sum(r.infinite_zero_orders),
         certified.zeros,
+        told=Told(ask.ZEROS, lambda e: e.zeta),
+        parts=("finite_zeros", "infinite_zeros"),
     ),
     Quantity(
         "minimum_phase",
@@ -111,6 +118,7 @@ QUANTITIES = (
         lambda x: x.weakly_unobservable.ncols == 0,
         lambda r: _full_by_ranks(r) and r.finite_zeros == 0,
         certified.settled,
+        balance=("weakly_unobservable_dimension", ""),
     ),
     Quantity(
         "stable",

@@ -6,6 +6,8 @@
     kept_theory       that folder if it is there already
     forget            removes it, and the answers that were kept about it
     installation      a digest of the Rocq and the MathComp that a compilation would use
+    believed          coqc, coqchk and MathComp, where they are and which they are
+    environment       the variables that these programs are given: none that would have them load something else
     compile_file      compiles one more file against them; its output
     compiled_again    the compiled form of a few sources, made from them now and not taken from the cache
     NoRocq            raised where there is no coqc, or MathComp is missing; says what to install
@@ -57,6 +59,9 @@ OUTSIDE = re.compile(r"\b(?:Redirect|Extraction|Load|Cd|Drop|Declare\s+ML|Add\s+
 # OCaml 5 sets address space aside for 128 cores, more than the limit; Rocq uses one. The rest is what Rocq chooses where nothing is set.
 ONE_CORE = "d=1,s=32M,o=120"
 LIMITED = 'ulimit -t "$1"; ulimit -v "$2" 2>/dev/null; ulimit -f "$3"; shift 3; exec "$@"'
+# All that coqc and coqchk are given of the environment. COQPATH, ROCQPATH, OCAMLPATH, COQLIB, LD_PRELOAD and others like these would have
+# them load other files than the installed ones, and nobody would see it; so what is not named here is dropped.
+GIVEN = ("PATH", "LANG", "LC_ALL", "LC_CTYPE", "TZ")
 DIGESTS = "digests.json"
 CLOSED = "Closed under the global context"
 # Where MathComp is, without loading it, which takes twenty times as long.
@@ -99,8 +104,38 @@ def found() -> Rocq | None:
     path = shutil.which("coqc")
     if path is None:
         return None
-    run = subprocess.run([path, "--print-version"], capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+    command = [path, "--print-version"]
+    run = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL, env=environment())
     return Rocq(path, run.stdout.split()[0]) if run.returncode == 0 and run.stdout.strip() else None
+
+
+def environment(home: str | None = None) -> dict[str, str]:
+    """Returns the variables for coqc and coqchk, with a home of their own where one is given."""
+    own = dict.fromkeys(("HOME", "TMPDIR", "XDG_CONFIG_HOME", "XDG_DATA_HOME"), home) if home else {}
+    return {**{name: os.environ[name] for name in GIVEN if name in os.environ}, **own, "OCAMLRUNPARAM": ONE_CORE}
+
+
+def believed() -> dict[str, str | None]:
+    """Returns by what a proof is checked: the files of coqc and coqchk (None: not there), Rocq's version, the folder of MathComp, and the
+    SHA-256 of its outermost files, which stands for its version. Raises NoRocq."""
+    compiler, checker = found(), shutil.which("coqchk")
+    if compiler is None:
+        raise NoRocq(f"coqc is not on the path; {INSTALL}")
+    places = [Path(place) for place in _mathcomp(compiler)]
+    return {
+        "coqc": os.path.realpath(compiler.path),
+        "version": compiler.version,
+        "coqchk": None if checker is None else os.path.realpath(checker),
+        "mathcomp": ", ".join(sorted({str(place.parents[1]) for place in places})),
+        "mathcomp_sha256": hashlib.sha256(b"".join(place.read_bytes() for place in places)).hexdigest(),
+    }
+
+
+def told(believed: Mapping[str, str | None]) -> str:
+    """Returns this in words."""
+    coqchk = believed["coqchk"] or "not on the path"
+    mathcomp = f"MathComp {believed['mathcomp']} (SHA-256 {(believed['mathcomp_sha256'] or '')[:12]})"
+    return f"coqc {believed['coqc']} ({believed['version']}), coqchk {coqchk}, {mathcomp}"
 
 
 def installation() -> str:
@@ -113,9 +148,14 @@ def installation() -> str:
     if compiler is None:
         raise NoRocq(f"coqc is not on the path; {INSTALL}")
     digest = hashlib.sha256(compiler.version.encode())
-    for place in re.findall(r"is bound to file\s+(\S+\.vo)", _probed(compiler, PLACES)):
+    for place in _mathcomp(compiler):
         digest.update(Path(place).read_bytes())
     return digest.hexdigest()
+
+
+def _mathcomp(compiler: Rocq) -> list[str]:
+    """Returns the outermost files of MathComp, where coqc finds them."""
+    return re.findall(r"is bound to file\s+(\S+\.vo)", _probed(compiler, PLACES))
 
 
 @cache
@@ -297,12 +337,11 @@ def _coqc(file: Path, options: tuple[str, ...], seconds: float) -> str:
     assert compiler is not None
     limits = (str(int(seconds) + 1), str(MOST_MEMORY // 1024), str(MOST_WRITTEN // 512))
     with tempfile.TemporaryDirectory() as home, tempfile.TemporaryFile() as printed, tempfile.TemporaryFile() as complaints:
-        nobodys = dict.fromkeys(("HOME", "TMPDIR", "XDG_CONFIG_HOME", "XDG_DATA_HOME"), home)
         try:
             run = subprocess.run(
                 ["/bin/sh", "-c", LIMITED, "sh", *limits, compiler.path, *options, file.name],
                 cwd=file.parent,
-                env={**os.environ, **nobodys, "OCAMLRUNPARAM": ONE_CORE},
+                env=environment(home),
                 stdout=printed,
                 stderr=complaints,
                 timeout=seconds,

@@ -29,7 +29,7 @@ from .export_fields import FIELD_KINDS, finite_zeros, infinite_zeros
 from .export_limits import LIMIT_KINDS, schur_stable
 from .export_lines import left_invertible_line
 from .listed import Integers, Listed, NotCovered, added, independent, times, unit
-from .terms import Terms, index, indices, window_of
+from .terms import AT_FIRST, Terms, determines, index, indices, window_of
 from .text import call, natural, naturals, pivoted, sequence, table, vector, whole
 
 Json = Any
@@ -41,12 +41,15 @@ MODULES = (
     "FieldBehaviors", "FieldSolutions", "FieldInversion", "FieldMatrices", "FieldZeros", "FieldInfiniteZeros",
     "FieldLines", "ExperimentsVocabulary", "Stability", "FieldLimits", "FieldInputs",
 )  # fmt: skip
+# What is stated is read by the words of the vocabularies alone, which the locks hold. Only then come the files that prove it, since
+# one of these could have another meaning for a word.
 HEAD = f"""From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import {" ".join(MODULES)}.
+From faultspace Require Import {" ".join(name for name in MODULES if name.endswith("Vocabulary"))}.
 Import GRing.Theory.
 Local Open Scope ring_scope.
 """
+PROOFS = f"From faultspace Require Import {' '.join(MODULES)}.\n"
 
 
 def exported(certificate: Json) -> Terms:
@@ -82,9 +85,10 @@ def _over_rationals(statement: Json) -> bool:
 
 def written(terms: Sequence[Terms]) -> str:
     """Returns a file with all theorems, which ends by asking what they rest on."""
-    parts = [f"Module C{i}.\n{t.theorem()}End C{i}.\n" for i, t in enumerate(terms)]
-    names = ", ".join(f"C{i}.certified" for i in range(len(terms)))
-    return f"{HEAD}{''.join(parts)}Definition certified := ({names or 'I'}).\nPrint Assumptions certified.\n"
+    claims = "".join(f"Module C{i}.\n{t.claimed()}End C{i}.\n" for i, t in enumerate(terms))
+    proofs = "".join(f"Module P{i}.\nImport C{i}.\n{t.proof()}End P{i}.\n" for i, t in enumerate(terms))
+    names = ", ".join(f"P{i}.certified : C{i}.said" for i in range(len(terms)))
+    return f"{HEAD}{claims}{PROOFS}{proofs}Definition certified := ({names or 'I'}).\nPrint Assumptions certified.\n"
 
 
 # -- the kinds ---------------------------------------------------------------------------------------------------------
@@ -222,7 +226,7 @@ def _first_column_only(s: Json, w: Json) -> Terms:
     (z,), d = _cleared([s["column"]])
     kernel = _kernel(w["kernel"])
     name, f, g = system.named("system"), f"(recorded d {natural(system.n)} f)", f"(recorded d {natural(system.p)} g)"
-    response = f"output (with_faults {name} {f} {g}) 0 (unit_fault _)"
+    response = f"output (with_faults {name} {f} {g}) 0 {AT_FIRST}"
     return Terms(
         (
             _named("system", system),
@@ -246,7 +250,7 @@ def _inversion_delay(s: Json, w: Json) -> Terms:
     x0, v = _integral_word(system, w["word"]) if delay != 0 else ([], [])
     definitions = _named("system", system), ("x", "vector", vector(x0)), ("vs", "seq vector", table(v))
     if delay is None:
-        statement = f"forall j, (j <= {natural(system.n)})%N -> ~ determines {name} {known} j"
+        statement = f"forall j, (j <= {natural(system.n)})%N -> ~ {determines(name, known, 'j')}"
         return Terms(definitions, call("check_no_delay", *system.sizes, known, "system x vs"), statement, "no_delay_sound")
     rows, least = [], natural(delay)
     for given in w["inverse"] or [[]] * system.m:
@@ -255,8 +259,8 @@ def _inversion_delay(s: Json, w: Json) -> Terms:
     return Terms(
         (*definitions, ("rows", "seq (Z * seq vector)", sequence(rows))),
         call("check_delay", *system.sizes, known, delay, "system rows x vs"),
-        f"[/\\ ({least} <= {natural(system.n)})%N, determines {name} {known} {least} & "
-        f"forall j, (j < {least})%N -> ~ determines {name} {known} j]",
+        f"[/\\ ({least} <= {natural(system.n)})%N, {determines(name, known, least)} & "
+        f"forall j, (j < {least})%N -> ~ {determines(name, known, 'j')}]",
         "delay_sound",
     )
 

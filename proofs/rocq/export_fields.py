@@ -21,7 +21,7 @@ from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..trust import checker, checker_structure
 from .numbered import Numbered, Numbers, Row, Rows, independent, inverse_at, transposed
-from .terms import Terms, index, indices, window_of
+from .terms import AT_FIRST, Terms, determines, index, indices, window_of
 from .text import call, natural, naturals, sequence
 
 Json = Any
@@ -158,7 +158,7 @@ def _first_column_only(s: Json, w: Json) -> Terms:
     return terms_over(
         system.numbers, [named("system", system), *_rows(system, kernel, w, window), _words("ws", system, window), *parts],
         call("first_column_alone", *system.sizes, window, "system rows Q ws first rest"),
-        f"word {name} {natural(window)} (output (with_faults {name} {f} {g}) 0 (unit_fault _)) /\\ "
+        f"word {name} {natural(window)} (output (with_faults {name} {f} {g}) 0 {AT_FIRST}) /\\ "
         f"~ solves {name} {natural(window)} {f} {g}",
         "first_column_alone_sound",
     )  # fmt: skip
@@ -172,7 +172,7 @@ def _inversion_delay(s: Json, w: Json) -> Terms:
         (x,), vs = numbers.vectors([w["word"]["x0"]], system.n), numbers.vectors(w["word"]["v"], system.m)
     definitions = [named("system", system), ("x", "seq V", numbers.vector(x)), _table(system, "vs", vs)]
     if delay is None:
-        statement = f"forall j, (j <= {natural(system.n)})%N -> ~ determines {name} {known} j"
+        statement = f"forall j, (j <= {natural(system.n)})%N -> ~ {determines(name, known, 'j')}"
         return terms_over(numbers, definitions, call("has_no_delay", *system.sizes, known, "system x vs"), statement, "has_no_delay_sound")
     p, least = system.p, natural(delay)
     inverse = numbers.vectors(w["inverse"] or [[]] * system.m, p * (delay + 1))
@@ -180,8 +180,8 @@ def _inversion_delay(s: Json, w: Json) -> Terms:
     return terms_over(
         numbers, [*definitions, ("rows", "seq (seq (seq V))", sequence(map(numbers.table, rows)))],
         call("has_delay", *system.sizes, known, delay, "system rows x vs"),
-        f"[/\\ ({least} <= {natural(system.n)})%N, determines {name} {known} {least} & "
-        f"forall j, (j < {least})%N -> ~ determines {name} {known} j]",
+        f"[/\\ ({least} <= {natural(system.n)})%N, {determines(name, known, least)} & "
+        f"forall j, (j < {least})%N -> ~ {determines(name, known, 'j')}]",
         "has_delay_sound",
     )  # fmt: skip
 

@@ -5,15 +5,15 @@
     made          the locks that a set of sources has
     kept          those of theory/locks.json, which were made when somebody last read the statements
     held          the locks of the sources; raises NotProved where they are not those kept, and says which word changed
-    page          theory/STATEMENTS.md: the readings of the ledger, the theorems and their locks side by side
 
 A lock is computed from the text of our sources, without comments and line breaks, so it is the same for each version of Rocq. It is the
-SHA-256 of the lines: what the files concerned open with, what may change the reading of a text from afar (canonical structures,
-coercions, notations of the whole theory), the words in the order of their names, the statement. After a change that is wanted,
+SHA-256 of the lines: what the file opens with, every sentence of every vocabulary that it imports, in order, what may change the reading
+of a text from afar (canonical structures and notations of the whole theory), the statement. Words that the statement does not reach are in
+it, too: a name that nobody uses can still stand for one of MathComp's. After a change that is wanted,
 
     python -m faultspace.proofs.rocq.locks
 
-writes both files anew and says what is different.
+writes the file anew and says what is different.
 """
 
 from __future__ import annotations
@@ -21,17 +21,18 @@ from __future__ import annotations
 import hashlib
 import json
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..verdict.ledger import Claim, load
+from ...base.writing import write_text
 from .build import NotProved
+from .sentences import refusals
 from .sources import THEORY, sources
-from .statements import Headline, Statements, read, refusals
+from .statements import Headline, Statements, read
 
-LOCKS, STATEMENTS = "locks.json", "STATEMENTS.md"
+LOCKS = "locks.json"
 COMMAND = "python -m faultspace.proofs.rocq.locks"
 MOST_LISTED = 4
 
@@ -53,10 +54,12 @@ class Lock:
 
 @dataclass(frozen=True)
 class Locks:
-    """The locks hold `theorems` by name, and the texts that they are made of: `words` by key, `openings` by file, `far`."""
+    """The locks hold `theorems` by name, and the texts that they are made of: `words` by key, `openings` by file, `far`. `vocabularies`:
+    file -> the SHA-256 of all that it says, in its order."""
 
     theorems: Mapping[str, Lock]
     words: Mapping[str, str]
+    vocabularies: Mapping[str, str]
     openings: Mapping[str, str]
     far: tuple[str, ...]
 
@@ -66,34 +69,46 @@ class Locks:
             "about": f"The statements of the Rocq theory as they were last read. {COMMAND} writes this file.",
             "theorems": {name: lock.to_json() for name, lock in self.theorems.items()},
             "words": dict(self.words),
+            "vocabularies": dict(self.vocabularies),
             "openings": dict(self.openings),
             "far": list(self.far),
         }
 
 
 def made(texts: Mapping[str, str]) -> Locks:
-    """Returns the locks of these sources, file name -> text. Raises NotProved where a file breaks the rules of `statements`."""
+    """Returns the locks of these sources, file name -> text. Raises NotProved where a file says what no source may, or breaks a rule."""
+    if refused := refusals(texts):
+        listed = "; ".join(f"{name} has {', '.join(found)}" for name, found in list(refused.items())[:MOST_LISTED])
+        raise NotProved(f"the sources of the theory say what no source may: {listed}")
     statements = read(texts)
     theorems: dict[str, Lock] = {}
-    words: dict[str, str] = {}
     for name in sorted(statements.headlines):
         headline = statements.headlines[name]
-        reached = {word.key: word.text for word in statements.reached(headline)}
-        words.update(reached)
-        theorems[name] = Lock(headline.file, _stated(headline), tuple(reached), _digest(headline, reached, statements))
-    return Locks(theorems, {key: words[key] for key in sorted(words)}, dict(sorted(statements.openings.items())), statements.far)
+        reached = tuple(word.key for word in statements.reached(headline))
+        theorems[name] = Lock(headline.file, _stated(headline), reached, _digest(headline, statements))
+    words = {word.key: word.text for found in statements.words.values() for word in found.values()}
+    return Locks(
+        theorems,
+        {key: words[key] for key in sorted(words)},
+        {file: _sha256(found) for file, found in sorted(statements.vocabularies.items())},
+        dict(sorted(statements.openings.items())),
+        statements.far,
+    )
 
 
 def _stated(headline: Headline) -> str:
     return f"Theorem {headline.name}{headline.statement}."
 
 
-def _digest(headline: Headline, reached: Mapping[str, str], statements: Statements) -> str:
-    files = sorted({headline.file, *statements.imports[headline.file]})
-    lines = [f"{file} opens with: {statements.openings[file]}" for file in files]
+def _digest(headline: Headline, statements: Statements) -> str:
+    lines = [f"{headline.file} opens with: {statements.openings[headline.file]}"]
+    lines += [f"{file}: {one}" for file in sorted(statements.imports[headline.file]) for one in statements.vocabularies[file]]
     lines += [f"from afar: {one}" for one in statements.far]
-    lines += [f"{key}: {text}" for key, text in reached.items()]
-    return hashlib.sha256("\n".join([*lines, _stated(headline)]).encode()).hexdigest()
+    return _sha256([*lines, _stated(headline)])
+
+
+def _sha256(lines: Sequence[str]) -> str:
+    return hashlib.sha256("\n".join(lines).encode()).hexdigest()
 
 
 def kept() -> Locks:
@@ -104,16 +119,13 @@ def kept() -> Locks:
             str(name): Lock(str(one["file"]), str(one["statement"]), tuple(one["words"]), str(one["sha256"]))
             for name, one in data["theorems"].items()
         }
-        return Locks(theorems, dict(data["words"]), dict(data["openings"]), tuple(data["far"]))
+        return Locks(theorems, *(dict(data[key]) for key in ("words", "vocabularies", "openings")), tuple(data["far"]))
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise NotProved(f"the locks of the statements, theory/{LOCKS}, cannot be read: {type(error).__name__}: {error}") from None
 
 
 def held(texts: Mapping[str, str], against: Locks | None = None) -> Locks:
     """Returns the locks of these sources. Raises NotProved where they are not those kept, or where a source assumes something."""
-    if refused := refusals(texts):
-        listed = "; ".join(f"{name} has {', '.join(found)}" for name, found in refused.items())
-        raise NotProved(f"the sources of the theory assume something or switch a check off: {listed}")
     now, before = made(texts), kept() if against is None else against
     found = list(differences(before, now))
     if found or before != now:
@@ -145,7 +157,11 @@ def differences(before: Locks, now: Locks) -> Iterator[str]:
             yield f"what {file} opens with {_changed(said, was)}"
     for one in sorted({*before.far} ^ {*now.far}):
         yield f"{one} may change how statements are read, and is {'not locked' if one in now.far else 'gone'}"
-    if before.words == now.words and before.openings == now.openings and {*before.far} == {*now.far}:
+    same = before.words == now.words and before.openings == now.openings and {*before.far} == {*now.far}
+    if same and before.vocabularies != now.vocabularies:
+        for file, _ in sorted({*before.vocabularies.items()} ^ {*now.vocabularies.items()}):
+            yield f"{file} says more than its words, or says them in another order"
+    if same and before.vocabularies == now.vocabularies:
         for name in sorted({*before.theorems} & {*now.theorems}):
             old, new = before.theorems[name], now.theorems[name]
             if old != new and old.statement == new.statement:
@@ -161,55 +177,6 @@ def _around(text: str, other: str, width: int = 60) -> str:
     first = next((k for k, (a, b) in enumerate(zip(text, other, strict=False)) if a != b), min(len(text), len(other)))
     start = max(0, text.rfind(" ", 0, max(0, first - 15)) + 1)
     return f"'{'...' if start else ''}{text[start : first + width]}{'...' if first + width < len(text) else ''}'"
-
-
-def page(locks: Locks, claims: list[Claim]) -> str:
-    """Returns the table of readings, theorems and locks, and below it the words, in Markdown."""
-    lines = [
-        "# What is claimed, what is proved, and the locks of the statements",
-        "",
-        f"`{COMMAND}` writes this page from `ledger.toml` and the sources; a test says that it is current. To the left",
-        "stands what the ledger claims, in the middle the theorem that Rocq has checked (of a refuted reading, its counterexample), to the",
-        "right its lock: the SHA-256 of the statement and of every word of ours that it uses, which stand below and in `locks.json`.",
-        "`faultspace verify` compares them with the sources.",
-        "",
-        "| reading | in words | theorem | SHA-256 |",
-        "|---|---|---|---|",
-    ]
-    named = set[str]()
-    for claim in claims:
-        for reading in claim.readings:
-            met = f" If: {'; '.join(reading.hypotheses)}." if reading.hypotheses else ""
-            first = f"{claim.id}: {reading.id}", f"{_cell(reading.statement + met)} ({reading.proved})"
-            for name in reading.theorems:
-                named.add(name)
-                if name in locks.theorems:
-                    lines.append(_row(*first, locks.theorems[name]))
-                    first = "", "and"
-    for name in sorted({*locks.theorems} - named):
-        lines.append(_row("", "what others rest on, or part of a reading", locks.theorems[name]))
-    lines += ["", "## The words", "", "Each as its vocabulary defines it, with the variables of its section.", ""]
-    lines += ["| word | definition |", "|---|---|"]
-    lines += [f"| `{key}` | {_code(text)} |" for key, text in locks.words.items()]
-    lines += ["", "## What else the locks hold", ""]
-    lines += [f"- `{file}` opens with {_code(text)}" for file, text in locks.openings.items()]
-    lines += [f"- {_code(one)}" for one in locks.far]
-    return "\n".join(lines) + "\n"
-
-
-def _row(reading: str, words: str, lock: Lock) -> str:
-    return f"| {reading} | {words} | {_code(lock.statement)} | `{lock.sha256}` |"
-
-
-def _code(text: str) -> str:
-    """Writes a text as code in a cell of a table, where a bar would end it."""
-    mark = "``" if "`" in text else "`"
-    pad = " " if "`" in text else ""
-    return mark + pad + text.replace("|", "\\|") + pad + mark
-
-
-def _cell(text: str) -> str:
-    return " ".join(text.split()).replace("|", "\\|")
 
 
 def written(locks: Locks) -> str:
@@ -228,9 +195,7 @@ def main() -> int:
         found = list(differences(kept(), now))
     except NotProved as error:
         found = [str(error)]
-    place = Path(str(THEORY))
-    (place / LOCKS).write_text(written(now), "utf-8")
-    (place / STATEMENTS).write_text(page(now, list(load())), "utf-8")
+    write_text(Path(str(THEORY)) / LOCKS, written(now))
     for one in found or ["nothing is different"]:
         print(one)
     return 0

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from ...base.processes import ending_with_us
 from ...base.progress import Progress, silent
-from .build import NotProved, compiled_theory, forget
+from .build import NotProved, compiled_theory, environment, forget
 
 SECONDS = 1800
 AXIOMS = "Axioms"
@@ -55,6 +55,7 @@ def second_check(theory: Path, seconds: float = SECONDS) -> None:
             text=True,
             check=False,
             timeout=seconds,
+            env=environment(),
             stdin=subprocess.DEVNULL,
             preexec_fn=ending_with_us(),
         )

@@ -41,6 +41,7 @@ from ..trust import checker
 from .build import CLOSED, BrokenTheory, NotProved, compile_file, compiled_theory, kept_theory
 from .export import HEAD, MODULES, exported, written
 from .listed import NotCovered
+from .locks import held
 from .sources import needs, sources
 from .terms import Terms
 
@@ -61,7 +62,9 @@ REJECTED = Recomputed("rejected", "the check computes to false")
 
 def recomputed(certificates: Sequence[Any], progress: Progress = silent, *, seconds: float = SECONDS) -> list[Recomputed]:
     """Returns one answer for each certificate. Rocq is asked about what the checker verifies, and about nothing else: the rest is rejected
-    here. Undecided is what takes longer than `seconds`, or too much memory. Raises NoRocq, BrokenTheory (of the theory itself)."""
+    here. Undecided is what takes longer than `seconds`, or too much memory. Raises NoRocq, BrokenTheory (of the theory itself), NotProved
+    where the words that statements are made of are not as locked."""
+    held(sources())
     compiled = theory(progress)
     results: dict[int, Recomputed] = {}
     terms: dict[int, Terms] = {}

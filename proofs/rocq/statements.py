@@ -1,15 +1,14 @@
-"""The statements of the Rocq theory are read from its sources: the headlines, the words that they use, and what no source may contain.
+"""The statements of the Rocq theory are read from its sources: the headlines, and the words that they use.
 
     Headline    a theorem of a file Headlines*.v: its name, its statement, its proof, its file
     Word        a definition, record or abbreviation of a file *Vocabulary.v, with the variables of the sections around it
     Statements  all headlines and words of a set of sources; `reached` says which words a statement uses, through other words too
     read        the Statements of the sources
-    refusals    what assumes something, leaves a proof open, switches a check off or reaches outside; where the sources have such a thing
 
-Text is told without comments and with single spaces, so that neither a comment nor a line break changes it. The rules that make this
-reading complete are enforced here, by NotProved: the files of headlines hold theorems alone, the vocabularies definitions alone, both
-import no other file of ours by name. A variable that has the name of a word counts as the word: too much is reached rather than too
-little.
+Text is told in sentences (rocq/sentences.py), so that neither a comment nor a line break changes it. The rules that make this reading
+complete are enforced here, by NotProved: the files of headlines hold theorems alone, the vocabularies definitions alone, both import no
+other file of ours by name, and no file or module of ours has the name of one of MathComp's that they import. A variable that has the name
+of a word counts as the word: too much is reached rather than too little.
 """
 
 from __future__ import annotations
@@ -17,33 +16,20 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property
 
 from .build import NotProved
+from .sentences import HEADLINES, NAME, sentences, short
 
-HEADLINES = re.compile(r"Headlines\w*\.v")
 VOCABULARY = re.compile(r"\w*Vocabulary\.v")
 OPENING = re.compile(r"(?:From|Set|Unset|Import|Local Open Scope)\b")
 REQUIRE = re.compile(r"From\s+faultspace\s+Require(?:\s+(Import|Export))?([\s\w]*)\.")
-NAME = r"[A-Za-z_][\w']*"
 TOKEN = re.compile(rf"{NAME}(?:\.{NAME})*")
 WORD = re.compile(rf"(?:Definition|Fixpoint|Record|Inductive|Variant|Notation)\s+({NAME})")
 # A second word in one sentence, which would have no name here.
 MUTUAL = re.compile(rf"\bwith\s+{NAME}(?:(?!=>|\bwith\b).)*:=")
-# What may change how a text is read far away from where it stands.
-FAR = re.compile(
-    r"(?:#\[[^]]*\]\s*)?(?:(?:Global|Export|Polymorphic|Program)\s+)*"
-    r"(?:(?:Canonical|Coercion|Identity|SubClass|Reserved|Infix|Arguments|Declare|Bind|Delimit|Undelimit|Open|Close|Instance|Existing"
-    r"|Class|Add|Number|String|Generalizable|Include)\s|Notation\s+\")"
-)
-ASSUMES = re.compile(
-    r"\b(?:Admitted|admit|give_up|Axioms?|Parameters?|Conjectures?|bypass_check|native_compute|Redirect|Extraction|Declare\s+ML|Add\s+LoadPath"
-    r"|Add\s+Rec|Add\s+ML)\b|Unset\s+(?:Guard|Positivity|Universe)\w*|(?:Set|Unset)\s+Typing\s+Flags|type-in-type"
-)
-SECTIONS = re.compile(
-    r"^\s*(?:(Section)\s+\w+|(End)\s+(\w+)|((?:Local\s+)?(?:Hypothes[ie]s|Variables?|Context)\b))",
-    re.MULTILINE,
-)
+# What may change how a text is read far away from where it stands, among what `sentences` lets stand at all.
+FAR = re.compile(r'Canonical |Add |Notation "')
 
 
 @dataclass(frozen=True)
@@ -76,12 +62,14 @@ class Word:
 
 @dataclass(frozen=True)
 class Statements:
-    """The headlines by name, the words of each vocabulary by the names that stand for them, what each file opens with, and what may
-    change the meaning of a text from afar. `imports`: the vocabularies that a file sees, the last one first.
+    """The headlines by name, the words of each vocabulary by the names that stand for them, all that each vocabulary says, in its order,
+    what each file opens with, and what may change the meaning of a text from afar. `imports`: the vocabularies that a file sees, the last
+    one first.
     """
 
     headlines: Mapping[str, Headline]
     words: Mapping[str, Mapping[str, Word]]
+    vocabularies: Mapping[str, tuple[str, ...]]
     openings: Mapping[str, str]
     imports: Mapping[str, tuple[str, ...]]
     far: tuple[str, ...]
@@ -147,7 +135,8 @@ def read(texts: Mapping[str, str]) -> Statements:
     openings = {name: _opening(parted[name]) for name in [*files, *vocabularies]}
     seen = {name: _imported(name, texts, parted) for name in openings}
     far = tuple(f"{name}: {one}" for name in sorted(texts) for one in parted[name] if name not in files and FAR.match(one))
-    statements = Statements(headlines, words, openings, seen, far)
+    _refuse_namesakes(openings, parted)
+    statements = Statements(headlines, words, {name: parted[name] for name in vocabularies}, openings, seen, far)
     others = {name.removesuffix(".v") for name in texts if name not in vocabularies}
     for headline in headlines.values():
         _refuse_outside(f"{headline.file}: the headline {headline.name}", headline.statement, others)
@@ -155,59 +144,6 @@ def read(texts: Mapping[str, str]) -> Statements:
         for word in words[name].values():
             _refuse_outside(f"{name}: the word {word.name}", word.text, others)
     return statements
-
-
-def refusals(texts: Mapping[str, str]) -> dict[str, tuple[str, ...]]:
-    """Returns file -> what assumes something or leaves a proof open, switches a check of the kernel off, or writes and loads files."""
-    return {name: found for name, text in texts.items() if (found := assumptions(text))}
-
-
-@cache
-def assumptions(text: str) -> tuple[str, ...]:
-    """Returns what `refusals` finds in one text."""
-    bare = without_comments(text)
-    found: list[str] = ASSUMES.findall(bare)
-    sections = 0
-    for m in SECTIONS.finditer(bare):
-        if m[1]:
-            sections += 1
-        elif m[2]:
-            sections -= bool(re.search(rf"\bSection\s+{m[3]}\s*\.", bare))
-        elif not sections:
-            found.append(m[4])
-    return tuple(found)
-
-
-def without_comments(text: str) -> str:
-    """Returns the text without its comments, which may be nested, and without its strings."""
-    kept, depth = [], 0
-    for piece in re.split(r'("[^"]*"|\(\*|\*\))', text):
-        depth += {"(*": 1, "*)": -1}.get(piece, 0)
-        if depth == 0 and piece != "*)" and not piece.startswith('"'):
-            kept.append(piece)
-    return "".join(kept)
-
-
-@cache
-def sentences(text: str) -> tuple[str, ...]:
-    """Returns the sentences of a source, each to its full stop, without comments and with single spaces."""
-    return tuple(_sentences(text))
-
-
-def _sentences(text: str) -> Iterator[str]:
-    kept, depth = "", 0
-    for piece in re.split(r'("[^"]*"|\(\*|\*\))', text):
-        depth += {"(*": 1, "*)": -1}.get(piece, 0)
-        if depth or piece == "*)":
-            kept += "" if depth else " "
-        elif piece.startswith('"'):
-            kept += piece
-        else:
-            first, *more = re.split(r"(?<=\.)(?:\s+|$)", piece)  # a full stop in a string, that is in `kept`, ends nothing
-            *ended, kept = [kept + first, *more]
-            yield from (" ".join(one.split()) for one in ended if one.strip())
-    if kept.strip():
-        yield " ".join(kept.split())
 
 
 def _opening(found: Sequence[str]) -> str:
@@ -225,7 +161,7 @@ def _imported(name: str, texts: Mapping[str, str], parted: Mapping[str, Sequence
     order = list[str]()
     for one in parted[name]:
         m = REQUIRE.fullmatch(one)
-        if m is None or m[1] is None:
+        if m is None or (m[1] is None and not VOCABULARY.fullmatch(name)):
             continue
         for module in m[2].split():
             file = f"{module}.v"
@@ -245,13 +181,13 @@ def _headlines(name: str, found: Sequence[str]) -> Iterator[Headline]:
         begun = True
         theorem = re.fullmatch(rf"Theorem ({NAME})(.*)\.", one)
         if theorem is None:
-            raise NotProved(f"{name}: a file of headlines holds theorems alone, and this is none: {_short(one)}")
+            raise NotProved(f"{name}: a file of headlines holds theorems alone, and this is none: {short(one)}")
         tactics = list[str]()
         for step in waiting:
             if step == "Qed.":
                 break
             if not (step[0].islower() if tactics else step == "Proof."):
-                raise NotProved(f"{name}: the proof of {theorem[1]} ends without Qed, or is no proof: {_short(step)}")
+                raise NotProved(f"{name}: the proof of {theorem[1]} ends without Qed, or is no proof: {short(step)}")
             tactics.append(step)
         else:
             raise NotProved(f"{name}: the proof of {theorem[1]} ends without Qed: the file ends there")
@@ -280,7 +216,7 @@ def _words(name: str, found: Sequence[str]) -> dict[str, Word]:
                     raise NotProved(f"{name}: {full} is defined twice")
                 words[full] = Word(f"{module}.{defined[1]}" if module else defined[1], text, name, place, module)
         else:
-            raise NotProved(f"{name}: a vocabulary defines words and does nothing else, and this does: {_short(one)}")
+            raise NotProved(f"{name}: a vocabulary defines words and does nothing else, and this does: {short(one)}")
     return words
 
 
@@ -289,18 +225,25 @@ def _fields(sentence: str) -> list[str]:
     if sentence.startswith("Record"):
         record = re.fullmatch(rf".*?:=\s*({NAME})?\s*\{{(.*)\}}\.", sentence)
         if record is None:
-            raise NotProved(f"this record is written in a way that is not read here: {_short(sentence)}")
+            raise NotProved(f"this record is written in a way that is not read here: {short(sentence)}")
         return [*filter(None, [record[1]]), *(field.split(":")[0].strip() for field in record[2].split(";"))]
     if re.match(r"Inductive|Variant", sentence):
         return re.findall(rf"\|\s*({NAME})", sentence.partition(":=")[2]) or re.findall(rf":=\s*({NAME})", sentence)
     return []
 
 
+def _refuse_namesakes(openings: Mapping[str, str], parted: Mapping[str, Sequence[str]]) -> None:
+    """Rocq takes the last module that has a name, so that one of ours could stand for MathComp's where that is imported by its name."""
+    ours = {file.removesuffix(".v"): file for file in parted}
+    for file, found in parted.items():
+        ours |= {opened[1]: file for one in found if (opened := re.match(rf"(?:Module|Section) ({NAME})", one))}
+    for file, opening in openings.items():
+        for name in TOKEN.findall(opening):
+            if (head := name.partition(".")[0]) != name and head in ours:
+                raise NotProved(f"{file} imports {name}, and {ours[head]} has another {head}")
+
+
 def _refuse_outside(what: str, text: str, others: set[str]) -> None:
     for name in TOKEN.findall(text):
         if "." in name and name.split(".")[0] in others:
             raise NotProved(f"{what} speaks of {name}, which is in no vocabulary")
-
-
-def _short(text: str, most: int = 80) -> str:
-    return text if len(text) <= most else f"{text[:most]}..."

@@ -1,6 +1,7 @@
 """What a file of Rocq says about one certificate, and the numbers that it is made of.
 
 Terms       definitions, check (a boolean), statement (a proposition), lemma (that the one implies the other)
+determines  that outputs determine a fault, as a proposition; AT_FIRST: a fault at time 0 alone
 index       a natural number of a certificate, through the checker's own parser; indices, window_of: several, a number of samples
 """
 
@@ -28,14 +29,27 @@ class Terms:
         lines = [f"Definition {name} : {kind} := {term}." for name, kind, term in self.definitions]
         return "\n".join(["Local Open Scope Z_scope.", *lines, "Local Close Scope Z_scope."])
 
-    def theorem(self) -> str:
-        """Returns the definitions, and the theorem that is proved from them by computation."""
-        return f"""{self.opening()}
-Lemma checked : {self.check} = true.
+    def claimed(self) -> str:
+        """Returns the definitions, and what is stated of them, under the name `said`."""
+        return f"{self.opening()}\nDefinition said : Prop := {self.statement}.\n"
+
+    def proof(self) -> str:
+        """Returns the theorem that it is so, which is proved by computation."""
+        return f"""Lemma checked : {self.check} = true.
 Proof. vm_cast_no_check (erefl true). Qed.
-Theorem certified : {self.statement}.
-Proof. exact: ({self.lemma} checked). Qed.
+Theorem certified : said.
+Proof. unfold said; exact: ({self.lemma} checked). Qed.
 """
+
+
+# A fault at time 0 alone, of one channel. What is stated is in words of the vocabularies; what they have no word for is spelled out.
+AT_FIRST = "(fun k => if k is 0%N then 1%:M else 0)"
+
+
+def determines(system: str, known: str, delay: str) -> str:
+    """Returns that the outputs up to a delay determine v(0), from rest (known) or from any state, as a proposition."""
+    zero = f"(forall k, (k <= {delay})%N -> output {system} x v k = 0)"
+    return f"(forall x v, ({known} -> x = 0) -> {zero} -> v 0%N = 0)"
 
 
 def index(value: Json, largest: int = checker.MAX_DIMENSION * checker.MAX_WINDOW) -> int:

@@ -16,12 +16,12 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-import tempfile
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from ...base.progress import Progress, silent
+from ...base.writing import write_text
 from .build import CLOSED, DIGESTS, INSTALL, BrokenTheory, NoRocq, NotProved, Poisoned, compile_file, compiled_again, compiled_theory, found
 from .locks import held
 from .sources import sources
@@ -80,9 +80,7 @@ def _answer(theory: Path, texts: Mapping[str, str], lines: list[str], progress: 
         said = compile_file(theory, "Asked.v", text)
     except BrokenTheory as error:
         raise Poisoned(_unlike(str(error), lines)) from None
-    with tempfile.NamedTemporaryFile("w", encoding="utf-8", dir=theory.parent, delete=False) as scratch:
-        scratch.write(json.dumps({**about, "said": said}))
-    Path(scratch.name).replace(place)
+    write_text(place, json.dumps({**about, "said": said}))
     return said
 
 

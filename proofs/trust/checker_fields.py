@@ -16,21 +16,21 @@ are those of x y. Besides that file these arguments have to be believed:
 
 from __future__ import annotations
 
-import importlib.util
 import sys
 from itertools import accumulate, repeat
 from math import comb, gcd
 from operator import mul
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING or __package__:
     from . import checker as core
-else:  # alone: the file of that name in the same folder
+else:  # alone: the file of that name in the same folder, read now; what Python may have kept of it compiled is not believed
     if "checker" not in sys.modules:
-        spec = importlib.util.spec_from_file_location("checker", Path(__file__).with_name("checker.py"))
-        sys.modules["checker"] = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(sys.modules["checker"])
+        sys.modules["checker"] = ModuleType("checker")
+        sys.modules["checker"].__file__ = str(file := Path(__file__).with_name("checker.py"))
+        exec(compile(file.read_bytes(), file, "exec", dont_inherit=True), vars(sys.modules["checker"]))
     core = sys.modules["checker"]
 
 MAX_DEGREE = 16

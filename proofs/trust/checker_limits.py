@@ -14,24 +14,24 @@ these arguments have to be believed:
 
 from __future__ import annotations
 
-import importlib.util
 import sys
 from functools import partial, reduce
 from itertools import accumulate, repeat
 from math import gcd
 from operator import add
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING or __package__:
     from . import checker as core
     from . import checker_structure as structure
-else:  # alone: the files of these names in the same folder
+else:  # alone: the files of these names in the same folder, read now; what Python may have kept of them compiled is not believed
     for name in ("checker", "checker_fields", "checker_structure"):
         if name not in sys.modules:
-            spec = importlib.util.spec_from_file_location(name, Path(__file__).with_name(f"{name}.py"))
-            sys.modules[name] = importlib.util.module_from_spec(spec)
-            spec.loader.exec_module(sys.modules[name])
+            sys.modules[name] = ModuleType(name)
+            sys.modules[name].__file__ = str(file := Path(__file__).with_name(f"{name}.py"))
+            exec(compile(file.read_bytes(), file, "exec", dont_inherit=True), vars(sys.modules[name]))
     core, structure = sys.modules["checker"], sys.modules["checker_structure"]
 
 Polynomial = dict[int, "structure.Mat"]  # a polynomial matrix: the nonzero coefficients by their powers

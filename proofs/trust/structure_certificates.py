@@ -70,11 +70,13 @@ class _Read(local):
 _read = _Read()
 
 
-def accept(certificate: Certificate) -> None:
-    """The checker verifies the certificate, without assuming anything. Raises checker.Rejected or checker.Malformed."""
+def accept(certificate: Certificate) -> str:
+    """Return the SHA-256 of the certificate, once the checker has verified it without assuming anything, so that distinct ones can be
+    counted. Raises checker.Rejected or checker.Malformed."""
     about = checker.decide(certificate, _read)
     if not about[0].field.irreducible(certificate["witness"]):
         raise checker.Rejected(f"verified only under an assumption: {'; '.join(checker.verify(certificate).assumes)}")
+    return sha256(certificate)
 
 
 def window_ranks(kernel: KernelRepresentation) -> Certificate:

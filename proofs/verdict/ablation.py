@@ -17,7 +17,7 @@ A hypothesis that no subject lacks which meets the others may follow from them. 
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
@@ -29,8 +29,8 @@ from .workbench import Workbench, accepted
 
 
 class Subject(Protocol):
-    """This is what a claim is about. `size` orders, `weight` is how many this one stands for, `field` names K, `accepted` counts
-    certificates.
+    """This is what a claim is about. `size` orders, `weight` is how many this one stands for, `field` names K, `accepted` are the
+    certificates, by their SHA-256.
 
     `degenerate` says why it would be a poor witness: C = 0, repeated fault columns, an input that does nothing; "" where it would not.
     """
@@ -42,7 +42,7 @@ class Subject(Protocol):
     @property
     def field(self) -> str: ...
     @property
-    def accepted(self) -> int: ...
+    def accepted(self) -> frozenset[str]: ...
     @property
     def degenerate(self) -> str: ...
     def __str__(self) -> str: ...
@@ -111,7 +111,7 @@ class _Tally(Generic[S]):
     """These are all subjects by the set of hypotheses they violate: how many, and the smallest of each field that fails the conclusion."""
 
     tried: Counter[frozenset[str]]
-    accepted: Counter[frozenset[str]]
+    accepted: dict[frozenset[str], set[str]]
     failing: dict[tuple[frozenset[str], str], S]
 
     def smallest(self, dropped: frozenset[str]) -> dict[str, S]:
@@ -124,16 +124,18 @@ class _Tally(Generic[S]):
 
     def count(self, dropped: frozenset[str]) -> _Count:
         kept = [violated for violated in self.tried if violated <= dropped]
-        return _Count(sum(self.tried[v] for v in kept), sum(self.tried[v] for v in kept if v), sum(self.accepted[v] for v in kept))
+        accepted = frozenset().union(*(self.accepted[v] for v in kept))
+        return _Count(sum(self.tried[v] for v in kept), sum(self.tried[v] for v in kept if v), accepted)
 
 
 @dataclass(frozen=True)
 class _Count:
-    """This counts subjects that meet the other hypotheses, those among them that violate one of the dropped, and accepted certificates."""
+    """This counts subjects that meet the other hypotheses, and those among them that violate one of the dropped; `accepted` has the
+    certificates of all, by their SHA-256."""
 
     tried: int
     lacking: int
-    accepted: int
+    accepted: frozenset[str]
 
 
 def ablate(bench: Workbench, ablation: Ablation[S], expected: Mapping[str, str]) -> tuple[Row, ...]:
@@ -159,7 +161,7 @@ def ablate(bench: Workbench, ablation: Ablation[S], expected: Mapping[str, str])
             row, count = refuted[already], tally.count(frozenset(two))
             words = f"it falls without {already} alone"
             made = (ablation.name, ablation.claim, ablation.conclusion, two, Verdict.REFUTED, words, already)
-            rows.append(Row(*made, row.certificates, row.accepted, tried=count.tried, lacking=count.lacking))
+            rows.append(Row(*made, row.certificates, row.decided, tried=count.tried, lacking=count.lacking))
     return tuple(rows)
 
 
@@ -168,11 +170,11 @@ def _order(subject: Subject) -> tuple[bool, tuple[int, ...]]:
 
 
 def _tally(bench: Workbench, ablation: Ablation[S]) -> _Tally[S]:
-    tally: _Tally[S] = _Tally(Counter(), Counter(), {})
+    tally: _Tally[S] = _Tally(Counter(), defaultdict(set), {})
     for subject in ablation.subjects(bench):
         violated = ablation.violated(subject)
         tally.tried[violated] += subject.weight
-        tally.accepted[violated] += subject.accepted
+        tally.accepted[violated] |= subject.accepted
         if not ablation.holds(subject):
             key = (violated, subject.field)
             if key not in tally.failing or _order(subject) < _order(tally.failing[key]):
@@ -186,9 +188,9 @@ def _without(bench: Workbench, ablation: Ablation[S], tally: _Tally[S], dropped:
     count = tally.count(frozenset(dropped))
     reason = ablation.implied.get(dropped[0]) if len(dropped) == 1 else None
 
-    def row(verdict: Verdict, words: str, certificates: tuple[Certificate, ...], number: int) -> Row:
+    def row(verdict: Verdict, words: str, certificates: tuple[Certificate, ...], decided: frozenset[str] = frozenset()) -> Row:
         return Row(
-            ablation.name, ablation.claim, ablation.conclusion, dropped, verdict, words, None, certificates, number,
+            ablation.name, ablation.claim, ablation.conclusion, dropped, verdict, words, None, certificates, decided,
             ledger=expected, theorems=ablation.theorems_without(dropped), tried=count.tried, lacking=count.lacking, implied=reason,
         )  # fmt: skip
 
@@ -199,10 +201,10 @@ def _without(bench: Workbench, ablation: Ablation[S], tally: _Tally[S], dropped:
         words = f"{subject}; {where}{poor}"
         if ablation.theorems_without(dropped):
             words = f"{', '.join(ablation.theorems_without(dropped))} prove it without, and yet it fails on {words}"
-            return row(Verdict.ERROR, words, certificates, len(certificates))
-        return row(Verdict.REFUTED, words, certificates, len(certificates))
+            return row(Verdict.ERROR, words, certificates)
+        return row(Verdict.REFUTED, words, certificates)
     if not count.tried:
-        return row(Verdict.ERROR, "no subject that was tried meets the others", (), 0)
+        return row(Verdict.ERROR, "no subject that was tried meets the others", ())
     if reason is not None and count.lacking:
         words = f"{count.lacking} of the {count.tried} subjects that meet the others lack it, although it is said to follow: {reason}"
         return row(Verdict.ERROR, words, (), count.accepted)

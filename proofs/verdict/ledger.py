@@ -1,7 +1,7 @@
 """The ledger of claims, `ledger.toml`, as records: what is claimed, how it can be read, what verdict is expected.
 
-    Claim       id, reference in the review, statement as printed, readings, expected verdict
-    Reading     one precise statement; `repair` marks those that are ours and not the paper's; `check` names the function in claims/,
+    Claim       id, reference in the review, statement, readings, expected verdict
+    Reading     one precise statement; `repair` marks those that are ours, no way to read the words; `check` names the function in claims/,
                 or the text in the language of claims (IN_LANGUAGE)
     load        the claims of the ledger, in its order
     expected_without   for each ablation of `hypotheses`, the verdict expected when one of its hypotheses is dropped
@@ -22,6 +22,7 @@ from ...base.sheets import Shown
 
 FILE = "ledger.toml"
 IN_LANGUAGE = "language"
+OURS = "ours"  # with it the reference of a claim begins that neither the paper nor its review has
 
 
 @dataclass(frozen=True, repr=False)
@@ -29,7 +30,8 @@ class Reading(Shown):
     """One way to read a claim, precise enough to be decided; the ledger states it, and a run of `verify` decides it.
 
     `id` names it within its claim. `statement` and `hypotheses` are in words. `expected` is the verdict that a run is compared with, a
-    string of the closed list of `Verdict`; `repair` says that the reading is ours and not the paper's.
+    string of the closed list of `Verdict`; `repair` says that the reading is ours: it repairs or
+    sharpens the words, or takes them too far, and is no way to read them.
     `theorems` of theory/headlines say it for all systems; of a refuted reading they are its counterexample. `missing`: what a
     proof for all systems lacks, where the reading holds and has none. `part` names the part of the claim that it reads, if any. `check` is
     the function in claims/ that decides it, as "file.function", or "language.NAME" where a text of the language of claims does. The
@@ -69,7 +71,7 @@ class Reading(Shown):
         """Yield what the ledger says of it, as (name, value) pairs."""
         yield "statement", self.statement
         yield "hypotheses", "; ".join(self.hypotheses) or "none"
-        yield "whose", "a repair of ours" if self.repair else "as printed"
+        yield "whose", "ours" if self.repair else "a reading of the words as stated"
         if self.theorems:
             yield "theorems in Rocq", ", ".join(self.theorems)
         if self.missing:
@@ -85,7 +87,7 @@ class Reading(Shown):
 class Claim(Shown):
     """A claim of the paper, of its review or of ours, with the ways to read it; the ledger states it, and `verify` decides it.
 
-    `id` is what `verify` takes, `reference` says where the claim stands, `statement` gives it as printed there, and `uses` names the claims
+    `id` is what `verify` takes, `reference` says where the claim stands, `statement` gives it in its words, and `uses` names the claims
     that it rests on. `readings` is a tuple, and the number of its `Reading` is at least one; `expected` is the verdict on the whole, with
     which a run is compared.
 
@@ -115,9 +117,14 @@ class Claim(Shown):
         """This is its name, and where it stands."""
         return f"{self.id} ({self.reference})"
 
+    @property
+    def whose(self) -> str:
+        """This says who states it so: the review, whose words are all that was at hand of the paper, or we."""
+        return "as we state it" if self.reference.startswith(OURS) else "as the review states it"
+
     def sheet(self) -> Iterator[tuple[str, str]]:
-        """Yield the statement as printed and the readings, as (name, value) pairs."""
-        yield "as printed", self.statement
+        """Yield the statement, whose words these are, and the readings, as (name, value) pairs."""
+        yield self.whose, self.statement
         yield "verdict that the ledger expects", self.expected
         yield "readings", ""
         yield from ((reading.id, f"{reading.statement} {reading.proved} is expected.") for reading in self.readings)

@@ -1,4 +1,4 @@
-"""The picture of the claims: a line a claim with its verdict, and a square a reading, first those as printed, then ours.
+"""The picture of the claims: a line a claim with its verdict, and a square a reading, first those of its words as stated, then ours.
 
 Line     a claim's name and verdict, and the verdicts on its readings
 draw     the lines into axes of matplotlib
@@ -27,11 +27,11 @@ LEFT, GAP = 8.2, 0.6  # where the first square stands, and the space between the
 
 @dataclass(frozen=True)
 class Line:
-    """This is a claim's name and verdict, the verdicts on its readings as printed, and those on readings of ours."""
+    """This is a claim's name and verdict, the verdicts on the readings of its words, and those on readings of ours."""
 
     name: str
     verdict: str
-    printed: tuple[str, ...]
+    stated: tuple[str, ...]
     ours: tuple[str, ...]
 
 
@@ -41,15 +41,15 @@ def draw(lines: Sequence[Line], ax: Any = None) -> Any:
     Raises ImportError where there is no matplotlib.
     """
     axes = _axes(len(lines)) if ax is None else ax
-    printed, ours = max((len(line.printed) for line in lines), default=0), max((len(line.ours) for line in lines), default=0)
-    right = LEFT + printed + GAP
+    stated, ours = max((len(line.stated) for line in lines), default=0), max((len(line.ours) for line in lines), default=0)
+    right = LEFT + stated + GAP
     for row, line in enumerate(lines):
         axes.text(0.1, row, line.name, va="center", fontsize=9)
         axes.text(4.9, row, line.verdict, va="center", fontsize=8, color="#333333")
-        for start, group in ((LEFT, line.printed), (right, line.ours)):
+        for start, group in ((LEFT, line.stated), (right, line.ours)):
             for column, verdict in enumerate(group):
                 _square(axes, start + column, row, verdict)
-    for place, heading in ((LEFT, "readings as printed"), (right, "readings of ours"), (0.1, "claim"), (4.9, "verdict")):
+    for place, heading in ((LEFT, "readings as stated"), (right, "readings of ours"), (0.1, "claim"), (4.9, "verdict")):
         axes.text(place, -1.0, heading, fontsize=9, weight="bold")
     patch = import_module("matplotlib.patches").Patch
     handles = [patch(facecolor=COLOURS[one], label=f"{one[0]}  {one}") for one in IN_LEGEND]

@@ -58,7 +58,7 @@ _MEANINGS = {
         "no counterexample was found among the systems tried, or what is said to exist is there, by certificates that the checker accepted"
     ),
     Verdict.REFUTED: "it fails, by a counterexample with certificates that the checker accepted",
-    Verdict.AMENDED: "the claim is refuted as printed, or a part of it is, and a repair of it is not",
+    Verdict.AMENDED: "every reading of the claim as stated is refuted, or of a part of it, and a repair of ours is not",
     Verdict.ERROR: "the check did not finish",
 }
 
@@ -70,13 +70,23 @@ class Outcome:
     """This is what a check found. `evidence` says on what the verdict rests; `certificates` are the headline ones, all accepted by the
     checker.
 
-    `accepted` counts every certificate that the checker accepted on the way, headline or not.
+    `decided` has the SHA-256 of those that the checker accepted on the way; `accepted` counts the distinct ones, headline or not.
     """
 
     verdict: Verdict
     evidence: str
     certificates: tuple[Certificate, ...] = ()
-    accepted: int = 0
+    decided: frozenset[str] = frozenset()
+
+    @property
+    def all_decided(self) -> frozenset[str]:
+        """These are all certificates that the checker accepted for it, headline or not, by their SHA-256."""
+        return self.decided | {sha256(certificate) for certificate in self.certificates}
+
+    @property
+    def accepted(self) -> int:
+        """This is the number of distinct certificates that the checker accepted for it."""
+        return len(self.all_decided)
 
 
 @dataclass(frozen=True, repr=False)
@@ -134,7 +144,7 @@ class ReadingResult(Shown):
 
 @dataclass(frozen=True, repr=False)
 class ClaimResult(Shown):
-    """This is a claim with its readings checked. AMENDED: every reading as printed of the claim, or of one of its parts, is refuted, and a
+    """This is a claim with its readings checked. AMENDED: every reading of its words, or of those of one of its parts, is refuted, and a
     repair is not."""
 
     claim: Claim
@@ -168,16 +178,18 @@ class ClaimResult(Shown):
         return f"{self.claim.id}: {self.verdict}" + ("" if self.verdict == self.expected else f", expected {self.expected}")
 
     def sheet(self) -> list[tuple[str, str]]:
-        """Return the statement as printed, and the verdict on each reading, as (name, value) pairs."""
+        """Return the statement, whose words these are, and the verdict on each reading, as (name, value) pairs."""
         readings = [(one.reading.id, f"{one.outcome.verdict}. {one.reading.statement}") for one in self.readings]
-        return [("as printed", self.claim.statement), ("readings", ""), *readings]
+        return [(self.claim.whose, self.claim.statement), ("readings", ""), *readings]
 
     def to_json(self) -> dict[str, Any]:
         """Return the object in `verify --json`."""
         return {
             "id": self.claim.id,
             "reference": self.claim.reference,
-            "as_printed": self.claim.statement,
+            "whose": self.claim.whose,
+            "as_stated": self.claim.statement,
+            "as_printed": self.claim.statement,  # what earlier runs called it
             "uses": list(self.claim.uses),
             "verdict": str(self.verdict),
             "expected": self.expected,
@@ -221,7 +233,7 @@ class Row:
     evidence: str
     already: str | None
     certificates: tuple[Certificate, ...]
-    accepted: int
+    decided: frozenset[str] = frozenset()
     ledger: str | None = None
     theorems: tuple[str, ...] = ()
     machine_checked: bool = False
@@ -229,6 +241,16 @@ class Row:
     lacking: int | None = None
     implied: str | None = None
     attacks: tuple[Attacked, ...] = ()
+
+    @property
+    def all_decided(self) -> frozenset[str]:
+        """These are all certificates that the checker accepted for it, headline or not, by their SHA-256."""
+        return self.decided | {sha256(certificate) for certificate in self.certificates}
+
+    @property
+    def accepted(self) -> int:
+        """This is the number of distinct certificates that the checker accepted for it."""
+        return len(self.all_decided)
 
     @property
     def expected(self) -> str | None:
@@ -284,8 +306,9 @@ class Report(Shown):
     """The verdicts of a run on every claim that was asked for; `verify` returns it.
 
     `claims` is a tuple with a ClaimResult a claim, whose `readings` hold the outcomes, and `hypotheses` has a Row for each hypothesis that
-    was dropped. `corpus` says in words on which systems the run rests, `seconds` is how long it took, and `machine` is what there is to say
-    of Rocq. `certificates()` gives the list of all headline certificates. The claims are those of [G25].
+    was dropped. `corpus` says in words on which systems the run rests, `seconds` is how long it took, `machine` is what there is to say of
+    Rocq, and `believed` says which programs and files it was (None: it was not asked). `certificates()` gives the list of all headline
+    certificates. The claims are those of [G25].
 
     Raises nothing; `plot` raises ImportError where there is no matplotlib.
 
@@ -303,6 +326,7 @@ class Report(Shown):
     corpus: str
     seconds: float
     machine: str = "not asked"
+    believed: Mapping[str, str | None] | None = None
     versions: dict[str, str] = field(default_factory=lambda: versions())
 
     @property
@@ -330,6 +354,11 @@ class Report(Shown):
         rows = (row.certificates for row in self.hypotheses)
         return list({sha256(certificate): certificate for several in (*readings, *rows) for certificate in several}.values())
 
+    def decided(self) -> frozenset[str]:
+        """Every certificate that the checker accepted in this run, by its SHA-256: one on which several verdicts rest is there once."""
+        readings = (reading.outcome.all_decided for claim in self.claims for reading in claim.readings)
+        return frozenset().union(*readings, *(row.all_decided for row in self.hypotheses))
+
     def plot(self, ax: Any = None) -> Any:
         """Draws a line a claim and a square a reading into the matplotlib axes `ax`, new ones where None are given, and returns them.
 
@@ -337,8 +366,8 @@ class Report(Shown):
         """
         lines = []
         for one in self.claims:
-            printed, ours = (tuple(str(r.outcome.verdict) for r in one.readings if r.reading.repair == repair) for repair in (False, True))
-            lines.append(Line(one.claim.id, str(one.verdict), printed, ours))
+            stated, ours = (tuple(str(r.outcome.verdict) for r in one.readings if r.reading.repair == repair) for repair in (False, True))
+            lines.append(Line(one.claim.id, str(one.verdict), stated, ours))
         return draw(lines, ax)
 
     def to_json(self) -> dict[str, Any]:
@@ -348,6 +377,7 @@ class Report(Shown):
             "as_expected": self.as_expected,
             "corpus": self.corpus,
             "rocq": self.machine,
+            "believed": None if self.believed is None else dict(self.believed),
             "seconds": round(self.seconds, 1),
             "versions": self.versions,
             "claims": [claim.to_json() for claim in self.claims],

@@ -6,6 +6,7 @@ refute        the smallest counterexample in a box, found by search: REFUTED, or
 witnessed     the opposite of a statement, by the counterexample to it
 counterexample, certify_records    the outcome of a search, and of a statement on pairs, alternatives or experiments
 accepted      certificates, each put before the checker once more: headline certificates are never shown unchecked
+all_accepted  the distinct certificates that several pieces of evidence rest on
 """
 
 from __future__ import annotations
@@ -19,12 +20,13 @@ from typing import Any, TypeVar
 from ...base.progress import Progress
 from ...exact.limits.experiments import Experiment
 from ...exact.system.systems import ResidualSystem
+from ..boxes.box import Box, Sizes, in_order
 from ..evidence.alternatives import ALTERNATIVES, PAIRS, AlternativeEvidence, PairEvidence
 from ..evidence.corpus import CORPUS, ByQuestion, Evidence, Questions, describe, examine, together
 from ..evidence.experiments import LIMITS, LimitEvidence, examine_experiment, first_look
 from ..evidence.material import Made, Material, Packed, Shelf, Wanted, loaded, made
 from ..evidence.pairs_by_polynomial import PAIRS_BY_POLYNOMIAL, PairByPolynomial
-from ..evidence.search import Box, Facts, Flags, Known, first_of_orbits, smallest
+from ..quantities.batches import Batch
 from ..trust.structure_certificates import Certificate, accept
 from .verdicts import Outcome, Verdict
 
@@ -132,9 +134,12 @@ class Workbench:
                     return describe(found)
         return ""
 
-    def searched(self, box: Box) -> Iterator[Facts]:
+    def searched(self, box: Box) -> Iterator[Batch]:
         """Yield the systems of a box in order, one of each orbit, with what earlier searches of this run found out about them."""
-        return first_of_orbits(box, self._known)
+        for sizes in box.sizes():
+            if sizes not in self._searched:
+                self._searched[sizes] = [stretch.batch for stretch in box.stretches(sizes, reduced=True)]
+            yield from self._searched[sizes]
 
     def examined(self, system: ResidualSystem, questions: Questions) -> Evidence:
         """Return what certificates answer to these questions about a system that a search came upon: several come upon the same."""
@@ -164,7 +169,8 @@ class Workbench:
         return {}
 
     @cached_property
-    def _known(self) -> dict[tuple[int, ...], Known]:
+    def _searched(self) -> dict[Sizes, list[Batch]]:
+        """These are the systems with the usual entries, by their sizes."""
         return {}
 
     @cached_property
@@ -193,6 +199,11 @@ def accepted(certificates: Iterable[Certificate]) -> tuple[Certificate, ...]:
     return found
 
 
+def all_accepted(found: Iterable[Evidence | Item]) -> frozenset[str]:
+    """Return the certificates that these rest on, by their SHA-256: those that several share once."""
+    return frozenset().union(*(one.accepted for one in found))
+
+
 def size(system: ResidualSystem) -> tuple[int, ...]:
     """Return the numbers n + m + p, then n, m, p: the order in which the smallest is sought."""
     return (system.n + system.m + system.p, system.n, system.m, system.p)
@@ -212,25 +223,19 @@ def certify(bench: Workbench, asks: Questions, applies: Test, holds: Test, show:
     total = sum(e.weight for e in tried)
     representative = next((e for e in tried if e.system.n), tried[0]).system
     evidence = f"no counterexample found in {total} systems: {describe(tried)}"
-    return Outcome(Verdict.CERTIFIED, evidence, accepted(show(representative)), sum(e.accepted for e in tried))
+    return Outcome(Verdict.CERTIFIED, evidence, accepted(show(representative)), all_accepted(tried))
 
 
-def refute(
-    bench: Workbench, box: Box, candidate: Callable[[Facts], Flags], asks: Questions, applies: Test, holds: Test, show: Show
-) -> Outcome:
+def refute(bench: Workbench, box: Box, candidates: str, asks: Questions, applies: Test, holds: Test, show: Show) -> Outcome:
     """Return the smallest system of the box to which the statement applies and on which it fails; else `certify`.
 
-    `candidate` is the vectorised first look; what it lets through is decided by the accepted certificates of the system.
+    `candidates` says in the language of claims which systems are looked at; the accepted certificates of each decide.
     """
-
-    def confirm(system: ResidualSystem) -> bool:
+    for system in in_order(box, candidates, reduced=True):
         evidence = bench.examined(system, asks)
-        return applies(evidence) and not holds(evidence)
-
-    found = smallest(box, candidate, confirm)
-    if found is None:
-        return certify(bench, asks, applies, holds, show)
-    return counterexample(str(found), box, show(found))
+        if applies(evidence) and not holds(evidence):
+            return counterexample(str(system), box, show(system))
+    return certify(bench, asks, applies, holds, show)
 
 
 def witnessed(found: Outcome) -> Outcome:
@@ -249,7 +254,7 @@ def witnessed(found: Outcome) -> Outcome:
 def counterexample(words: str, box: object, certificates: Iterable[Certificate]) -> Outcome:
     """Return the outcome REFUTED, by these certificates."""
     checked = accepted(certificates)
-    return Outcome(Verdict.REFUTED, f"{words}; the smallest with {box}", checked, len(checked))
+    return Outcome(Verdict.REFUTED, f"{words}; the smallest with {box}", checked)
 
 
 def certify_records(
@@ -270,4 +275,4 @@ def certify_records(
         totals[record.origin] = totals.get(record.origin, 0) + record.weight
     listed = "; ".join(f"{count} {origin}" for origin, count in totals.items())
     evidence = f"no counterexample found in {sum(totals.values())} {unit}: {listed}"
-    return Outcome(Verdict.CERTIFIED, evidence, accepted(show(records[0])), sum(r.accepted for r in records))
+    return Outcome(Verdict.CERTIFIED, evidence, accepted(show(records[0])), all_accepted(records))

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import scipy.stats
 
+from benchmarks.long_watch import compared
 from benchmarks.monitoring import BLOCK, Plant, block_threshold, delay_cell, first_run
 from benchmarks.monitoring_methods import averaged, components, parity_space, principal
 from faultspace.numeric import StateSpaceModel
+from tests.thorough import THOROUGH
 
 
 def test_the_parity_vector_knows_neither_state_nor_input_and_its_square_is_chi_squared() -> None:
@@ -63,3 +67,9 @@ def test_a_fault_begins_where_it_is_said_to() -> None:
     assert np.abs(np.diff(y, axis=0)).max(axis=1).argmax() == 149
     z, _ = second.faulty("actuator", "sinusoid", 0.0)
     assert z.shape == y.shape == (350, 3)
+
+
+def test_a_disturbed_watch_gives_the_alarms_of_an_undisturbed_one(tmp_path: Path) -> None:
+    found = compared(100_000 if THOROUGH else 6000, 500, 1, tmp_path)
+    assert found.kills and found.undisturbed and found.disturbed == found.undisturbed
+    assert found.late < found.early + 16  # MiB, of an interpreter that holds some 80

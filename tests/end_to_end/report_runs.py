@@ -87,7 +87,8 @@ def _claim(name: str, readings: dict[str, tuple[str, Any, dict[str, str]]]) -> d
     return {
         "id": name,
         "reference": stated.reference,
-        "as_printed": stated.statement,
+        "whose": stated.whose,
+        "as_stated": stated.statement,
         "uses": [],
         "verdict": "AMENDED",
         "expected": "AMENDED",

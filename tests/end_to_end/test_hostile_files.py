@@ -179,3 +179,27 @@ def test_records_of_next_to_nothing(tmp_path: Path) -> None:
         path = tmp_path / f"{name}.npy"
         np.save(path, values)
         refused(identified(path, inputs="data[:,0]", outputs="data[:,1]"), f"{name}.npy")
+
+
+@pytest.mark.parametrize("kind", ["external link", "soft link through one", "virtual dataset", "external storage"])
+def test_hdf5_that_has_its_numbers_in_other_files(kind: str, tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    rows = np.random.default_rng(1).standard_normal((2, 400))
+    with h5py.File(tmp_path / "secret.mat", "w") as file:
+        file["y"] = rows
+    (tmp_path / "raw").write_bytes(rows.tobytes())
+    with h5py.File(tmp_path / "data.mat", "w", userblock_size=512) as file:
+        file["u"] = rows[:1]
+        if kind == "external link":
+            file["y"] = h5py.ExternalLink("secret.mat", "y")
+        elif kind == "soft link through one":
+            file["z"], file["y"] = h5py.ExternalLink("secret.mat", "/"), h5py.SoftLink("/z/y")
+        elif kind == "virtual dataset":
+            layout = h5py.VirtualLayout((2, 400), "f8")
+            layout[:] = h5py.VirtualSource("secret.mat", "y", (2, 400))
+            file.create_virtual_dataset("y", layout)
+        else:
+            file.create_dataset("y", (2, 400), "f8", external=[("raw", 0, rows.nbytes)])
+    with open(tmp_path / "data.mat", "r+b") as stream:
+        stream.write(b"MATLAB 7.3 MAT-file".ljust(124) + b"\x00\x02IM")
+    refused(identified(tmp_path / "data.mat"), "may be in another file", "expected a MAT file as MATLAB saves it")

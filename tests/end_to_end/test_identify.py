@@ -64,7 +64,7 @@ def as_printed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Run, Path]:
     assert listed.code == 0
     with pytest.MonkeyPatch.context() as patch:
         if importlib.util.find_spec("matplotlib") is not None:
-            patch.setattr("matplotlib.figure.Figure.savefig", lambda figure, path, **options: Path(path).write_bytes(b"not rendered"))
+            patch.setattr("matplotlib.figure.Figure.savefig", lambda figure, file, **options: file.write(b"not rendered"))
         run = call("identify", *shlex.split(listed.err.partition("find it with: faultspace identify ")[2].replace("\n", " ")))
     assert run.code == 0, run.err
     return run, folder

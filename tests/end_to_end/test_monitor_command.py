@@ -10,8 +10,6 @@ import os
 import signal
 import subprocess
 import sys
-import threading
-import time
 from pathlib import Path
 from typing import Any
 
@@ -21,8 +19,8 @@ import pytest
 import faultspace as fs
 from faultspace.cli.argument_names import as_options, of_file
 from faultspace.numeric import StateSpaceModel
-from faultspace.numeric.data.streams import RESTARTED, TableStream, followed
 from tests.end_to_end.commands import ROOT, Run, call, command, environment
+from tests.numeric.test_monitor import loop
 
 MODEL = StateSpaceModel([[0.7]], [[1.0]], [[1.0], [0.5]], [[0.0], [0.0]])
 OPTIONS = ("--window", "5", "--level", "0.001")
@@ -104,7 +102,7 @@ def test_the_beginning_of_the_stream_can_be_the_healthy_record(plant: Path, tmp_
     run = call("monitor", str(plant), "--healthy-until", "400", "--follow", str(both), "--idle", "0.1", *OPTIONS, "--json")
     assert 550 <= alarms(run)[0]["sample"] <= 556
     short = call("monitor", str(plant), "--healthy-until", "4000", "--follow", str(both), "--idle", "0.1")
-    assert short.code == 2 and "--healthy-until: got 650 samples in all, expected 4000" in short.err
+    assert short.code == 2 and "--healthy-until: got 650 samples without a gap, expected 4000" in short.err
 
 
 def test_an_empty_field_is_a_missing_sample(plant: Path, tmp_path: Path) -> None:
@@ -145,18 +143,82 @@ def test_what_cannot_be_watched_is_refused_in_a_line(plant: Path, words: list[st
     assert run.code == 2 and parts in run.err and run.err.count("\n") == 1 and run.out == ""
 
 
-@pytest.mark.parametrize(
-    ("tail", "parts"),
-    [
-        ("1,x,2,3\n", "line 252, column 'level': got 'x', expected a number"),
-        ("1,2\n", "line 252 has 2 fields"),
-        ("1,2,\xff,3\n", "got byte 0xff"),
-    ],
-)
-def test_a_line_that_is_none_ends_the_watch_with_its_number(plant: Path, tmp_path: Path, tail: str, parts: str) -> None:
-    (tmp_path / "bad.csv").write_bytes((plant / "stream.csv").read_bytes() + tail.encode("latin-1"))
-    run = followed_run(plant, tmp_path / "bad.csv")
-    assert run.code == 2 and parts in run.err and run.out.startswith("sample 15")
+def test_lines_that_are_none_are_missing_samples_and_the_summary_counts_them(plant: Path, tmp_path: Path) -> None:
+    head, *rows = (plant / "stream.csv").read_bytes().splitlines(keepends=True)
+    lines = [head, *rows[:100], b"1,x,2,3\n", *rows[101:200], b"1,2\n", b"1,2,\xff,3\n", *rows[202:]]
+    (tmp_path / "bad.csv").write_bytes(b"".join(lines))
+    run = followed_run(plant, tmp_path / "bad.csv", "--json")
+    assert "bad.csv: line 102, column 'level': got 'x', expected a number; it counts as a missing sample, 1 so far" in run.err
+    assert alarms(run)[0]["sample"] in range(150, 156)
+    summary = json.loads(run.out.splitlines()[-1])["summary"]
+    assert (summary["bad_lines"], summary["samples"], summary["missing"]) == (3, 250, [3, 3])
+    assert followed_run(plant, tmp_path / "bad.csv").out.endswith("\n3 lines that were no samples\n")
+
+
+def test_a_gap_in_the_stream_of_an_unstable_plant(tmp_path: Path) -> None:
+    y, u = loop(1.2, 1, 2000)
+    fs.Monitor(StateSpaceModel([[1.2]], [[1.0]], [[1.0]], [[0.0]]), y, u).save(tmp_path / "watch.json")
+    y, u = loop(1.2, 2, 800)
+    y[500:] += 5.0
+    rows = [f"{push},{'' if 100 <= k < 400 else out}" for k, ((push,), (out,)) in enumerate(zip(u, y, strict=True))]
+    (tmp_path / "stream.csv").write_text("\n".join(["u1,y1", *rows]) + "\n")
+    kept = tmp_path / "kept.json"
+    stream = str(tmp_path / "stream.csv")
+    run = call("monitor", str(tmp_path / "watch.json"), "--follow", stream, "--idle", "0.1", "--save", str(kept), "--json")
+    assert {one["sample"] for one in alarms(run)} <= {119, 500, 501} and fs.Monitor.load(kept).samples == 800
+    assert "too much was missing for an unstable model, whose state is as unknown as at the start (1 time so far)" in run.err
+    assert f"goes on with sample 800 of the stream, counted from 0, line 802 of {tmp_path}" in run.err
+
+
+def started(*words: str, stdin: int | None = None) -> subprocess.Popen[str]:
+    """Start the command; a shell that starts the tests in the background may have told all its children to ignore interrupts."""
+    heard = "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "
+    line = [sys.executable, "-c", f"{heard}from faultspace.cli.command_line import main; sys.exit(main(sys.argv[1:]))", "monitor", *words]
+    return subprocess.Popen(line, stdin=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=ROOT, env=environment(), text=True)
+
+
+@pytest.mark.parametrize(("number", "said"), [(signal.SIGINT, "interrupted"), (signal.SIGTERM, "terminated"), (signal.SIGHUP, "hung up")])
+def test_a_signal_ends_with_the_summary_and_what_is_saved_goes_on(plant: Path, tmp_path: Path, number: int, said: str) -> None:
+    head, *rows = (plant / "stream.csv").read_text().splitlines(keepends=True)
+    file, kept = tmp_path / "log.csv", str(tmp_path / "kept.json")
+    file.write_text("".join([head, *rows[:152]]))
+    first = started(str(plant / "watch.json"), "--follow", str(file), "--save", kept, "--json")
+    assert first.stdout is not None and "alarm" in json.loads(first.stdout.readline())
+    os.kill(first.pid, number)
+    out, err = first.communicate(timeout=100)
+    assert first.returncode == 128 + number and "summary" in json.loads(out.splitlines()[-1]) and err.endswith(f"faultspace: {said}\n")
+    with open(file, "a") as stream:
+        stream.write("".join(rows[152:]))
+    second = call("monitor", kept, "--follow", str(file), "--idle", "0.1", "--save", kept, "--json")
+    assert "goes on behind line 15" in second.err
+    whole = call("monitor", str(plant / "watch.json"), "--follow", str(plant / "stream.csv"), "--idle", "0.1", "--json")
+    assert whole.out.splitlines()[-1] == second.out.splitlines()[-1]  # the summary counts every alarm once
+
+
+def test_an_error_of_ours_ends_with_the_summary(plant: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    taken = fs.Monitor._sample
+
+    def fails(watch: fs.Monitor, y: Any, u: Any) -> Any:
+        if watch.samples == 200:
+            raise RuntimeError("broken")
+        return taken(watch, y, u)
+
+    monkeypatch.setattr(fs.Monitor, "_sample", fails)
+    run = call("monitor", str(plant / "watch.json"), "--follow", str(plant / "stream.csv"), "--idle", "0.1", "--json")
+    assert run.code == 70 and json.loads(run.out.splitlines()[-1])["summary"]["samples"] == 200
+
+
+def test_standard_input_that_is_closed_or_of_one_line(plant: Path) -> None:
+    for words in (f"monitor {plant}/watch.json", "inspect -"):
+        line = f"{sys.executable} -m faultspace {words} <&-"
+        run = subprocess.run(line, shell=True, capture_output=True, cwd=ROOT, env=environment(), text=True)
+        assert run.returncode == 2 and "standard input: is closed" in run.stderr and run.stderr.count("\n") == 1
+    endless = "import sys, resource; resource.setrlimit(resource.RLIMIT_AS, (3 << 30,) * 2); "
+    endless += "from faultspace.cli.command_line import main; sys.exit(main(['monitor', sys.argv[1]]))"
+    source = "import os\nfor _ in range(600): os.write(1, b'7' * (1 << 22))"
+    line = f'{sys.executable} -c "{source}" | {sys.executable} -c "{endless}" {plant}/watch.json'
+    run = subprocess.run(line, shell=True, capture_output=True, cwd=ROOT, env=environment(), text=True)
+    assert run.returncode == 0 and "the last line has no end, and is no sample" in run.stderr
 
 
 def test_a_table_without_names_is_read_by_numbers(plant: Path, tmp_path: Path) -> None:
@@ -168,39 +230,6 @@ def test_a_table_without_names_is_read_by_numbers(plant: Path, tmp_path: Path) -
         *(*OPTIONS, "--json", *channels),
     )
     assert alarms(run)[0]["outputs"] == ["data[:,1]"]
-
-
-def test_a_file_grows_is_cut_and_begins_anew(tmp_path: Path) -> None:
-    file = tmp_path / "growing.csv"
-    file.write_text("a,b\n1,2\n3,")
-    seen: list[Any] = []
-
-    def read() -> None:
-        seen.extend(RESTARTED if row is None else row.tolist() for row in TableStream(followed(str(file), idle=1.0), ["b"], str(file)))
-
-    reader = threading.Thread(target=read)
-    reader.start()
-    time.sleep(0.5)
-    with open(file, "a") as stream:
-        stream.write("4\n# a comment\n\n5,6\n7,8")
-    time.sleep(0.5)
-    file.write_text("b;a\n9;1\n")
-    reader.join(20)
-    assert seen == [[2.0], [4.0], [6.0], RESTARTED, [9.0]] or seen == [[2.0], [4.0], [6.0], RESTARTED, RESTARTED, [9.0]]
-
-
-def test_an_interrupt_is_one_line_after_the_summary(plant: Path) -> None:
-    # A shell that starts the tests in the background may have told all its children to ignore interrupts.
-    heard = "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "
-    source = heard + "from faultspace.cli.command_line import main; sys.exit(main(sys.argv[1:]))"
-    line = [sys.executable, "-c", source, "monitor", str(plant), "--healthy", str(plant / "healthy.csv"), *OPTIONS]
-    line += ["--follow", str(plant / "stream.csv"), "--json"]
-    started = subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=ROOT, env=environment(), text=True)
-    assert started.stdout is not None and "alarm" in json.loads(started.stdout.readline())
-    time.sleep(0.5)
-    os.kill(started.pid, signal.SIGINT)
-    out, err = started.communicate(timeout=60)
-    assert started.returncode == 130 and "summary" in json.loads(out.splitlines()[-1]) and err.endswith("faultspace: interrupted\n")
 
 
 def test_messages_name_the_option_that_was_used() -> None:

@@ -12,7 +12,7 @@ import signal
 import subprocess
 import sys
 import urllib.request
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -77,18 +77,6 @@ def another_verdict(verdicts: dict[str, Any]) -> None:
     claim = next(one for one in verdicts["claims"] if one["id"] == PAIR)
     claim["readings"][1]["verdict"] = "CERTIFIED"
     assert claim["readings"][1]["as_expected"] and verdicts["as_expected"]
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    found = next((path for name in printing.NAMES if (path := shutil.which(name)) is not None), None)
-    if found is None:
-        pytest.skip("no Chromium is here to look at the page with")
-    sync = pytest.importorskip("playwright.sync_api")
-    with sync.sync_playwright() as playwright:
-        started = playwright.chromium.launch(executable_path=found, args=["--no-sandbox"])
-        yield started
-        started.close()
 
 
 def opened(browser: Any, path: Path, said: list[str], **context: Any) -> Any:
@@ -220,7 +208,7 @@ def test_nothing_of_a_record_becomes_markup(records: Records) -> None:
     attack = "<script>alert(1)</script>"
 
     def change(verdicts: dict[str, Any]) -> None:
-        verdicts["claims"][0]["as_printed"] = verdicts["claims"][0]["readings"][0]["evidence"] = attack
+        verdicts["claims"][0]["as_stated"] = verdicts["claims"][0]["readings"][0]["evidence"] = attack
         verdicts["claims"][0]["reference"] = f"[G25] {attack}"
         verdicts["hypotheses"][0]["evidence"] = verdicts["rocq"] = attack
 

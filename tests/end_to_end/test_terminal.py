@@ -13,15 +13,20 @@ import re
 import subprocess
 import sys
 import time
+from typing import Any
 
 import pytest
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+import faultspace as fs
 from faultspace.base import messages, progress
+from faultspace.base.sheets import Sheet
 from faultspace.cli import consoles
 from faultspace.cli.command_line import main
+from faultspace.cli.file_by_file import FileAnswer, answer_each
+from faultspace.exact.structure.record import analyze
 from tests.end_to_end.commands import ROOT, call, environment
 
 
@@ -169,3 +174,31 @@ def test_no_color_is_respected_on_a_terminal() -> None:
         assert run.wait() == 0
     assert b"\x1b[33m" in seen["coloured"]
     assert b"\x1b[3" not in seen["plain"] and b"different: first on 2 samples" in seen["plain"]
+
+
+class Slow:
+    """It is what is known of a file, whose last lines take their time."""
+
+    def sheet(self) -> Sheet:
+        time.sleep(0.3)
+        return [("lag", "1")]
+
+    def to_json(self) -> dict[str, Any]:
+        time.sleep(0.3)
+        return {"lag": 1}
+
+
+@pytest.mark.parametrize("as_json", [True, False])
+def test_what_is_computed_as_the_answer_is_written_is_told_too(
+    as_json: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(progress, "PATIENCE", 0.1)
+    assert answer_each(["x.json"], "inspecting {}", lambda *_: FileAnswer("1 state", Slow()), as_json=as_json) == 0
+    assert "faultspace: x.json: writing the answer ..." in capsys.readouterr().err
+
+
+def test_the_zeros_of_a_large_system_are_counted() -> None:
+    told: list[tuple[str, int, int]] = []
+    system = fs.System(A=[[0, 1, 0], [0, 0, 1], [1, 0, 0]], F=[[1], [2], [1]], C=[[1, 0, 0]], G=[[0]])
+    assert analyze(system, on_progress=lambda *one: told.append(one)).finite_zeros == 2
+    assert told[:4] == [("zeros", k, 4) for k in (1, 2, 3, 4)]

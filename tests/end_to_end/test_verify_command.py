@@ -34,7 +34,7 @@ from tests.end_to_end.commands import ROOT, call, command, example, validator
 ONE = Reading("as-printed", "rank [O_s T_s] = n + s m for every system and every s", ("left-invertible", "s >= n"), "REFUTED", False)
 TWO = Reading("with-zeros", "rank [O_s T_s] = n + s m - zeta for s >= lag", ("left-invertible",), "CERTIFIED", True)
 CLAIMS = (
-    Claim("claim-a", "Theorem 2", "the rank, as printed", "AMENDED", (), False, (ONE, TWO)),
+    Claim("claim-a", "Theorem 2", "the rank, as stated", "AMENDED", (), False, (ONE, TWO)),
     Claim("claim-b", "(11)", "the space", "CERTIFIED", (), False, (TWO,)),
 )
 CERTIFICATE = window_ranks(kernel_representation(read_system(example("paper")).residual))
@@ -124,7 +124,7 @@ def test_the_table_has_a_row_for_every_reading(pretended: Pretend) -> None:
     end = next(i for i, line in enumerate(lines) if "which hypotheses are needed" in line)
     rows = [line.split() for line in lines[:end] if SHORT in line]
     assert [row[0] for row in rows] == ["as-printed", "with-zeros", "with-zeros"]
-    assert CLAIMS[0].statement in out and ONE.statement in out and "As printed: 0 of 1 readings stand." in out
+    assert CLAIMS[0].statement in out and ONE.statement in out and "As stated: 0 of 1 readings stand." in out
     assert all(row[-2:] == [SHORT, "1.2"] for row in rows)
     assert "REFUTED" in rows[0] and "CERTIFIED" in rows[1]
     assert "hypotheses: left-invertible; s >= n" in out
@@ -237,7 +237,8 @@ def test_by_itself_it_prints_a_line_for_each_claim_and_few_others(pretended: Pre
     assert lines[1:3] == ["claim-a AMENDED 1 refuted 1 certified", "claim-b CERTIFIED - 1 certified"]
     assert "hypotheses: 2 dropped alone: 1 needed (a counterexample without it), 1 without which no counterexample was found; " in out
     assert "1 pair: 0 needed only together." in out and "attacks: none is stored on these claims." in lines
-    assert "machine-checked: not asked" in lines and "AMENDED: the claim is refuted as printed" in out and "PROVED:" not in out
+    assert "machine-checked: not asked" in lines and "PROVED:" not in out
+    assert "AMENDED: every reading of the claim as stated is refuted" in out
     assert len(lines) == 2 + 7 and lines[-1].startswith("as expected: all 2 claims; 3 readings")
     assert "\x1b" not in out
 
@@ -278,7 +279,7 @@ def test_a_terminal_of_any_width_shows_everything(
     together = re.sub(r"[\s─]", "", printed)
     wanted = ["claim-a", "AMENDED", "certificates accepted"]
     if options != ("--claim", "claim-a"):
-        wanted += ["claim-b", "NOT as expected: claim-b", "claim-b: REFUTED (expected CERTIFIED)", "readings as printed"]
+        wanted += ["claim-b", "NOT as expected: claim-b", "claim-b: REFUTED (expected CERTIFIED)", "readings as stated"]
     if options:
         wanted += [SHORT, "needed", "observable"]
         wanted += ["evidence for with-zeros", "left-invertible; s >= n"] if width < verifying.WIDE or "--claim" in options else []

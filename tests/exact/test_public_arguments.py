@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterable
 from fractions import Fraction
+from itertools import product
 from pathlib import Path
 from typing import Any, cast
 
@@ -41,9 +43,8 @@ COUNTED: dict[str, Callable[[Anything], object]] = {
 }
 
 
-@pytest.mark.parametrize("name", list(COUNTED))
-def test_a_count_may_be_an_integer_of_numpy(name: str) -> None:
-    assert str(COUNTED[name](np.int64(1))) == str(COUNTED[name](1))
+def test_a_count_may_be_an_integer_of_numpy() -> None:
+    assert [name for name, function in COUNTED.items() if str(function(np.int64(1))) != str(function(1))] == []
 
 
 def test_entries_and_primes_may_be_integers_of_numpy_and_floats_may_not() -> None:
@@ -64,18 +65,26 @@ def test_entries_and_primes_may_be_integers_of_numpy_and_floats_may_not() -> Non
 TOO_LARGE = ("Matrix.zero, rows", "Matrix.identity", "toeplitz_matrix", "observability_matrix", "window_matrix", "left_inverse, known")
 
 
-@pytest.mark.parametrize("name", list(COUNTED))
-@pytest.mark.parametrize("value", [-1, -(10**30), True, 1.0, "1", None])
-def test_a_count_is_an_integer_from_zero_on(name: str, value: object) -> None:
-    with pytest.raises(fs.errors.InvalidInput, match=r": got .*, expected an integer >= 0"):
-        COUNTED[name](value)
+def taken(functions: dict[str, Callable[[Anything], Any]], values: Iterable[object], words: str) -> list[tuple[str, object]]:
+    """Return the name of each function with each value that it does not refuse in these words."""
+    found = []
+    for (name, function), value in product(functions.items(), values):
+        try:
+            function(value)
+        except fs.errors.InvalidInput as error:
+            if re.search(words, str(error)):
+                continue
+        found.append((name, value))
+    return found
 
 
-@pytest.mark.parametrize("name", TOO_LARGE)
-@pytest.mark.parametrize("value", [10**9, 10**30])
-def test_a_matrix_that_no_memory_holds_is_not_begun(name: str, value: int) -> None:
-    with pytest.raises(fs.errors.InvalidInput, match=r"got a matrix of .* entries are supported"):
-        COUNTED[name](value)
+def test_a_count_is_an_integer_from_zero_on() -> None:
+    assert taken(COUNTED, [-1, -(10**30), True, 1.0, "1", None], r": got .*, expected an integer >= 0") == []
+
+
+def test_a_matrix_that_no_memory_holds_is_not_begun() -> None:
+    large = {name: COUNTED[name] for name in TOO_LARGE}
+    assert taken(large, [10**9, 10**30], r"got a matrix of .* entries are supported") == []
 
 
 def test_ranks_of_huge_windows_need_no_matrix() -> None:
@@ -125,11 +134,9 @@ def test_every_function_of_a_system_takes_either_kind(name: str) -> None:
     assert function(RESIDUAL) == function(FAULTY) == expected
 
 
-@pytest.mark.parametrize("name", [*OF_KERNELS, *OF_PENCILS, *OF_SYSTEMS])
-@pytest.mark.parametrize("given", REFUSED)
-def test_what_is_no_system_is_told_so(name: str, given: object) -> None:
-    with pytest.raises(fs.errors.InvalidInput, match=r": got .*, expected a ResidualSystem or a FaultySystem"):
-        {**OF_KERNELS, **OF_PENCILS, **OF_SYSTEMS}[name](given)
+def test_what_is_no_system_is_told_so() -> None:
+    every = {**OF_KERNELS, **OF_PENCILS, **OF_SYSTEMS}
+    assert taken(every, REFUSED, r": got .*, expected a ResidualSystem or a FaultySystem") == []
 
 
 @pytest.mark.parametrize("given", ["paper.json", Path("paper.json")])

@@ -1,7 +1,7 @@
 """The public names: there, loaded when asked for, told in words with an example that runs, and not hidden by a module of their name.
 
 PUBLIC      room -> its public names
-RECORDS     the classes that the rooms export or that their functions return, but for values, by which records are made, and for errors
+records     the classes that the rooms export or that their functions return, but for values, by which records are made, and for errors
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from functools import cache
 from pathlib import Path
 from types import UnionType
 from typing import Any, get_args, get_type_hints
@@ -73,13 +74,16 @@ def classes() -> Iterator[type[Any]]:
             yield from (get_args(returned) if isinstance(returned, UnionType) else (returned,))
 
 
-RECORDS = {
-    found.__name__: found
-    for found in classes()
-    if found.__module__.startswith("faultspace.")
-    and found.__name__ not in VALUES
-    and (dataclasses.is_dataclass(found) or issubclass(found, Shown))
-}
+@cache
+def records() -> dict[str, type[Any]]:
+    """Return the classes of answers by name: those of ours that are exported or returned, but for VALUES."""
+    return {
+        found.__name__: found
+        for found in classes()
+        if found.__module__.startswith("faultspace.")
+        and found.__name__ not in VALUES
+        and (dataclasses.is_dataclass(found) or issubclass(found, Shown))
+    }
 
 
 def missing(record: type[Any]) -> list[str]:
@@ -93,13 +97,12 @@ def missing(record: type[Any]) -> list[str]:
     return lacks
 
 
-@pytest.mark.parametrize("name", sorted(RECORDS))
-def test_a_record_is_read_by_people_notebooks_and_programs(name: str) -> None:
-    assert missing(RECORDS[name]) == []
+def test_records_are_read_by_people_notebooks_and_programs() -> None:
+    assert {name: lacks for name, record in records().items() if (lacks := missing(record))} == {}
 
 
 def test_the_records_are_found_and_what_one_lacks_is_noticed() -> None:
-    assert len(RECORDS) >= 40 and set(RECORDS) >= PICTURED | {"Record", "FaultCount", "Structure", "Checked", "BadPair", "NoBadPair"}
+    assert len(records()) >= 40 and set(records()) >= PICTURED | {"Record", "FaultCount", "Structure", "Checked", "BadPair", "NoBadPair"}
 
     @dataclasses.dataclass(frozen=True)
     class Study:
@@ -118,10 +121,15 @@ def unreadable(function: Callable[..., object]) -> list[str]:
     return [text for text in shown if " at 0x" in text or len(text) > 136]
 
 
-@pytest.mark.parametrize(("room", "name"), CALLED)
-def test_a_signature_can_be_read(room: str, name: str) -> None:
-    documented = getattr(importlib.import_module(room), name)
-    assert unreadable(documented) == []
+def public(*rooms: str) -> Iterator[tuple[str, str, Any]]:
+    """Yield (room, name, what it stands for) of all that can be called."""
+    for room, name in CALLED:
+        if room in rooms:
+            yield room, name, getattr(importlib.import_module(room), name)
+
+
+def test_signatures_can_be_read() -> None:
+    assert {name: found for _, name, documented in public(*ROOMS) if (found := unreadable(documented))} == {}
 
 
 def test_an_unreadable_signature_is_noticed() -> None:
@@ -166,14 +174,13 @@ def test_the_method_in_floats_needs_nothing_exact() -> None:
     assert "flint" in loaded_after("import faultspace; faultspace.analyze")
 
 
-@pytest.mark.parametrize("room", ROOMS)
-def test_every_name_is_there_and_listed(room: str) -> None:
-    module = importlib.import_module(room)
-    assert set(PUBLIC[room]) <= set(dir(module))
-    for name in PUBLIC[room]:
-        assert getattr(module, name) is not None
-    with pytest.raises(AttributeError):
-        _ = module.no_such_name
+def test_every_name_is_there_and_listed() -> None:
+    for room in ROOMS:
+        module = importlib.import_module(room)
+        assert set(PUBLIC[room]) <= set(dir(module))
+        assert [name for name in PUBLIC[room] if getattr(module, name) is None] == []
+        with pytest.raises(AttributeError):
+            _ = module.no_such_name
 
 
 def shadowed(folder: Path, names: tuple[str, ...]) -> set[str]:
@@ -182,9 +189,8 @@ def shadowed(folder: Path, names: tuple[str, ...]) -> set[str]:
     return set(names) & (files | {path.name for path in folder.rglob("*") if path.is_dir()})
 
 
-@pytest.mark.parametrize("room", ROOMS[1:])
-def test_no_module_carries_the_name_of_what_its_room_exports(root: Path, room: str) -> None:
-    assert shadowed(root / room.rpartition(".")[2], PUBLIC[room]) == set()
+def test_no_module_carries_the_name_of_what_its_room_exports(root: Path) -> None:
+    assert {name for room in ROOMS[1:] for name in shadowed(root / room.rpartition(".")[2], PUBLIC[room])} == set()
 
 
 def test_no_module_of_the_front_door_carries_a_public_name(root: Path) -> None:
@@ -198,10 +204,12 @@ def test_a_shadow_is_noticed(tmp_path: Path) -> None:
     assert shadowed(tmp_path, ("compare", "limit", "deep")) == {"compare", "deep"}
 
 
-@pytest.mark.parametrize(("room", "name"), CALLED)
-def test_a_public_docstring_says_what_is_needed(room: str, name: str) -> None:
-    documented = getattr(importlib.import_module(room), name)
-    assert lacking(inspect.getdoc(documented) or "", from_literature=name not in WITHOUT_SOURCE[room]) == []
+def test_public_docstrings_say_what_is_needed() -> None:
+    poor = {}
+    for room, name, documented in public(*ROOMS):
+        if lacks := lacking(inspect.getdoc(documented) or "", from_literature=name not in WITHOUT_SOURCE[room]):
+            poor[f"{room}.{name}"] = lacks
+    assert poor == {}
 
 
 def test_a_poor_docstring_is_noticed() -> None:
@@ -214,17 +222,19 @@ def test_a_poor_docstring_is_noticed() -> None:
     ]
 
 
-@pytest.mark.parametrize(("room", "name"), CALLED)
-def test_the_examples_run(room: str, name: str) -> None:
-    documented: Callable[..., object] = getattr(importlib.import_module(room), name)
-    for example in doctest.DocTestFinder(recurse=False).find(documented, name, globs={}):
-        outcome = doctest.DocTestRunner(verbose=False).run(example)
-        assert outcome.attempted
-        assert outcome.failed == 0
+@pytest.mark.parametrize("room", ROOMS)
+def test_the_examples_run(room: str) -> None:
+    """Each public name has examples, and what they print is what stands there."""
+    wrong = set()
+    for _, name, documented in public(room):
+        outcomes = [
+            doctest.DocTestRunner(verbose=False).run(one) for one in doctest.DocTestFinder(recurse=False).find(documented, name, globs={})
+        ]
+        if not all(outcome.attempted and outcome.failed == 0 for outcome in outcomes):
+            wrong.add(name)
+    assert wrong == set()
 
 
-@pytest.mark.parametrize("room", ROOMS[1:])
-def test_every_public_name_of_a_room_has_a_docstring(room: str) -> None:
-    module = importlib.import_module(room)
-    bare = [name for name in PUBLIC[room] if callable(getattr(module, name)) and not (inspect.getdoc(getattr(module, name)) or "").strip()]
-    assert bare == []
+def test_every_public_name_of_a_room_has_a_docstring() -> None:
+    named = ((name, getattr(importlib.import_module(room), name)) for room in ROOMS[1:] for name in PUBLIC[room])
+    assert [name for name, found in named if callable(found) and not (inspect.getdoc(found) or "").strip()] == []

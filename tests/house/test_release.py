@@ -61,6 +61,21 @@ def test_the_page_has_the_steps(release: ModuleType) -> None:
     assert told == [step.command for step in release.STEPS], "make it again: .ci/release"
 
 
+def test_the_pages_that_are_not_in_the_tree_are_made(release: ModuleType, tmp_path: Path) -> None:
+    """What is made is whole, what has left is as git last had it, and a file that never was is refused."""
+    known = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "--is-shallow-repository"], capture_output=True, text=True)
+    if known.stdout.strip() != "false":
+        pytest.skip("the tree has not its history beside it")
+    release.paged(Path(sys.executable), ROOT, tmp_path)
+    made = {path.name: path.read_text("utf-8") for path in tmp_path.iterdir()}
+    assert made.keys() == {"statements.md", "paper-to-proof.md", "history.md", "benchmarks-log.md"}
+    assert not any((ROOT / path).exists() for path in release.LEFT.values())
+    assert "## Withdrawn" in made["history.md"] and "4912943add64214edb89094ab45d40677b4ecc8b5d6c0dbc5a06f24618cec6aa" in made["history.md"]
+    assert made["benchmarks-log.md"].startswith("# Benchmarks\n") and min(map(len, map(str.split, made.values()))) > 10_000
+    with pytest.raises(release.Failed, match="git has no commit"):
+        release.left("docs/never-was.md")
+
+
 THEORY = ROOT / "proofs" / "theory"
 
 

@@ -30,7 +30,7 @@ def test_wheel_and_tree_hold_the_same_files(root: Path, checkout: list[PurePosix
     files = [name for name in checkout if not (root / name).is_symlink()]
     expected = {str(name) for name in files if name.parts[0] == "faultspace"}
     expected |= {f"faultspace/{name}" for name in files if name.parts[0] in FOLDERS}
-    advice = "name the folder in `packages`, or the file's pattern in `package-data`, of pyproject.toml"
+    advice = "a folder of modules has an __init__.py; another file has its pattern in `package-data` of pyproject.toml"
     assert sorted(expected - wheel_files) == [], f"in the tree but not in the wheel: {advice}"
     assert sorted(wheel_files - expected) == [], "in the wheel but not in the tree"
 

@@ -116,19 +116,54 @@ def test_innovations_are_white_of_deviation_one_from_the_first_sample_on(model: 
         assert np.allclose(moments, np.eye(2) if lag == 0 else 0, atol=0.12)
 
 
-def test_an_unstable_plant_is_watched_by_an_observer() -> None:
-    def loop(seed: int, samples: int) -> tuple[Any, Any]:
-        draw, x = np.random.default_rng(seed), 0.0
-        y, u = np.zeros((samples, 1)), np.zeros((samples, 1))
-        for k in range(samples):
-            y[k] = x + NOISE * draw.standard_normal()
-            u[k] = -0.4 * y[k] + draw.standard_normal()
-            x = 1.1 * x + u[k, 0]
-        return y, u
+def loop(pole: float, seed: int, samples: int) -> tuple[Any, Any]:
+    """Return y, u of x(k+1) = pole x + u in the loop u = -.5 y + noise."""
+    draw, x = np.random.default_rng(seed), 0.0
+    y, u = np.zeros((samples, 1)), np.zeros((samples, 1))
+    for k in range(samples):
+        y[k] = x + NOISE * draw.standard_normal()
+        u[k] = -0.5 * y[k] + NOISE * draw.standard_normal()
+        x = pole * x + u[k, 0]
+    return y, u
 
-    watch = Monitor(StateSpaceModel([[1.1]], [[1.0]], [[1.0]], [[0.0]]), *loop(1, 800), level=1e-3, window=WINDOW)
-    z = watch.extend(*loop(2, 800)).innovations
-    assert abs(z.std() - 1) < 0.1 and abs(z.mean()) < 0.1
+
+@pytest.mark.parametrize(("pole", "gap", "anew"), [(1.002, 20_000, 1), (1.002, 45_000, 1), (1.05, 2_000, 1), (1.2, 300, 1), (1.2, 80, 0)])
+def test_after_a_gap_an_unstable_plant_is_watched_as_before(pole: float, gap: int, anew: int) -> None:
+    watch = Monitor(StateSpaceModel([[pole]], [[1.0]], [[1.0]], [[0.0]]), *loop(pole, 1, 2000))
+    y, u = loop(pole, 2, 900 + gap)
+    y[200 : 200 + gap] = np.nan
+    z = watch.extend(y[: 800 + gap], u[: 800 + gap])
+    assert [alarm.test for alarm in z.alarms] == ["missing"]
+    assert all(abs(part.std() - 1) < 0.15 for part in (z.innovations[:200], z.innovations[200 + gap :]))
+    assert watch.begun_anew == anew and ("state unknown again" in watch.summary()) == bool(anew)
+    y[800 + gap :] += 50 * NOISE
+    assert [alarm.sample for alarm in watch.extend(y[800 + gap :], u[800 + gap :]).alarms] == [pytest.approx(800 + gap, abs=1)] * len(TESTS)
+    json.dumps(watch._state(), allow_nan=False)
+
+
+def test_an_unstable_plant_is_found_again_behind_wild_numbers() -> None:
+    watch = Monitor(StateSpaceModel([[1.2]], [[1.0]], [[1.0]], [[0.0]]), *loop(1.2, 1, 2000))
+    y, u = loop(1.2, 2, 1500)
+    y[200:500:2], y[201:500:2] = 1e9, 1e308
+    seen = watch.extend(y, u)
+    assert seen.alarms and {alarm.sample for alarm in seen.alarms} == {200}
+    assert abs(seen.innovations[700:].std() - 1) < 0.15 and not np.any((seen.statistics > watch.calibration.threshold)[700:, :3])
+
+
+@pytest.mark.parametrize("size", [1.0, 1e-160])
+def test_what_the_caller_told_numpy_of_floats_changes_nothing(size: float) -> None:
+    y, u = record(2, 300)
+    y[:, 0] *= size  # whose squares no float holds
+    plant = StateSpaceModel(PLANT.A, PLANT.B, PLANT.C * [[size], [1.0]], PLANT.D * [[size], [1.0]])
+    healthy, pushed = record(1, 800)
+    healthy[:, 0] *= size
+    quiet = Monitor(plant, healthy, pushed, level=1e-3, window=WINDOW).extend(y, u)
+    with np.errstate(all="raise"):
+        watch = Monitor(plant, healthy, pushed, level=1e-3, window=WINDOW)
+        loud = watch.extend(y, u)
+        for wild in ([1e308, np.nan], [-1e308, 1e308], [np.inf, np.nan]):
+            watch.update(wild, u[0])
+    assert same(loud.statistics, quiet.statistics)
 
 
 def test_the_statistics_are_what_they_are_said_to_be() -> None:

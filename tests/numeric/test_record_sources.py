@@ -178,7 +178,7 @@ def test_what_holds_no_record_is_refused(call: Callable[[Array, Array], Any], sa
 
 def test_the_record_shows_itself(wanted: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     if importlib.util.find_spec("matplotlib") is not None:  # what is rendered is looked at in `test_identify.py`
-        monkeypatch.setattr("matplotlib.figure.Figure.savefig", lambda figure, path, **options: Path(path).write_bytes(b"not rendered"))
+        monkeypatch.setattr("matplotlib.figure.Figure.savefig", lambda figure, file, **options: file.write(b"not rendered"))
     assert repr(wanted) == f"<Identification of {N} samples: order 3, n_v 1, n_z 1, with a signal>"
     assert wanted._repr_html_().startswith("<pre># ") and "<script" not in wanted._repr_html_()
     assert "--" not in "\n".join([*wanted.notes, wanted.summary().partition("What to try next")[2]])

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from fractions import Fraction
-from importlib import resources
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -86,10 +86,10 @@ def test_the_reduced_plant_stays_right_where_pi_moesp_loses_a_state(name: str) -
     assert errors[1] < 0.05 and errors[1] <= max(errors[0], 1e-9)
 
 
-def certified() -> list[Experiment]:
-    """Return the experiments of all certificates of limits, each once."""
+def certified(folder: Path) -> list[Experiment]:
+    """Return the experiments of all certificates of limits in a folder, each once."""
     found: dict[str, Experiment] = {}
-    for path in sorted(resources.files("faultspace.proofs").joinpath("certificates").iterdir(), key=lambda one: one.name):
+    for path in sorted(folder.iterdir()):
         if "-limit-" in path.name:
             given = json.loads(path.read_text(encoding="utf-8"))["statement"]["experiment"]
             found.setdefault(json.dumps(given, sort_keys=True), read_experiment(given))
@@ -97,10 +97,10 @@ def certified() -> list[Experiment]:
 
 
 @pytest.mark.slow
-def test_no_certified_colour_of_the_input_takes_a_state_from_the_reduced_plant() -> None:
+def test_no_certified_colour_of_the_input_takes_a_state_from_the_reduced_plant(certificates_of_a_run: Path) -> None:
     """Every experiment of every certificate in which input and fault are uncorrelated, and PI-MOESP's limit has another range."""
     judged = 0
-    for experiment in map(noisy, certified()):
+    for experiment in map(noisy, certified(certificates_of_a_run)):
         if limit(experiment).past_inputs.equals_observability_range or not arx_limit(experiment, 1).open_loop:
             continue
         errors = [reduced(experiment, lags)[2] for lags in (2, 10)]

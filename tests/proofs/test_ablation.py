@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
 import pytest
 
+from faultspace.base.progress import silent
+from faultspace.proofs.boxes.box import Box, in_order, rows_where
 from faultspace.proofs.evidence.corpus import CORPUS, examine
 from faultspace.proofs.evidence.questions import RANKS
-from faultspace.proofs.evidence.search import Box, chunks
 from faultspace.proofs.hypotheses import ablations, trajectories
 from faultspace.proofs.hypotheses.aimed import AIMED, HIDDEN_ZEROS, aimed_systems
-from faultspace.proofs.hypotheses.facets import degenerate, facets, flags, poor
+from faultspace.proofs.hypotheses.facets import POOR, degenerate, expressions, facets
 from faultspace.proofs.hypotheses.systems import gap, range_of_f, rank_formula
+from faultspace.proofs.quantities.batches import Batch
 from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.verdict.ablation import Ablation, Found, Proof, ablate, first_found
 from faultspace.proofs.verdict.ledger import expected_without, load
@@ -23,10 +25,6 @@ from faultspace.proofs.verdict.verdicts import Row, Verdict
 from faultspace.proofs.verdict.workbench import Workbench
 from faultspace.proofs.verification import _Machine, _row_with_theorems
 from tests.oracle import inspect_slowly
-
-
-def quiet(stage: str, done: int, total: int) -> None:
-    """Return a progress that nobody watches."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +57,7 @@ def ablation(subjects: Sequence[Triple]) -> Ablation[Triple]:
 
 
 def rows_of(made: Ablation[Triple], expected: dict[str, str] | None = None) -> dict[str, Row]:
-    return {" ".join(row.dropped): row for row in ablate(Workbench("quick", 1, quiet), made, expected or {})}
+    return {" ".join(row.dropped): row for row in ablate(Workbench("quick", 1, silent), made, expected or {})}
 
 
 def rows(subjects: Sequence[Triple]) -> dict[str, Row]:
@@ -157,7 +155,7 @@ def test_a_counterexample_to_what_is_proved_is_an_error() -> None:
 @pytest.fixture(scope="module")
 def bench() -> Workbench:
     """Return a workbench with every ninth system of the quick corpus and every fourth of the aimed ones, twenty for each hypothesis."""
-    made = Workbench("quick", 1, quiet)
+    made = Workbench("quick", 1, silent)
     made.put_answers(CORPUS, [examine(*item) for item in list(CORPUS[RANKS].items(made))[::9]])
     few = [*HIDDEN_ZEROS, *list(aimed_systems(80))[::4]]
     made.put_answers(AIMED, [examine("aimed", system) for system in few])
@@ -218,37 +216,44 @@ def test_a_reason_why_a_hypothesis_follows_is_held_against_the_subjects(bench: W
     assert found.verdict == Verdict.ERROR and "lack it, although it is said to follow" in found.evidence
 
 
+def batches(box: Box) -> Iterator[Batch]:
+    for sizes in box.sizes():
+        yield from (stretch.batch for stretch in box.stretches(sizes, reduced=False))
+
+
 def test_first_looks_are_the_definitions() -> None:
-    """The vectorised hypotheses about one system agree with the slow oracle, on every system of a small box."""
-    for facts in chunks(Box(total=4, largest_n=2, largest_m=1, largest_p=1)):
+    """What the hypotheses about one system say in the language agrees with the slow oracle, on every system of a small box."""
+    for batch in batches(Box(n=(1, 2), m=(1, 1), p=(1, 1), total=4)):
         for name in ("observable", "controllable", "left-invertible"):
-            found = flags({name})(facts)
-            for index in range(0, len(facts.A), 199):
-                known = inspect_slowly(facts.system(index).to_json())
-                assert found[index] == known[name.replace("-", "_")], (name, facts.system(index))
+            found = set(rows_where(expressions({name}), batch))
+            for index in range(0, len(batch), 199):
+                known = inspect_slowly(batch.system(index).to_json())
+                assert (index in found) == known[name.replace("-", "_")], (name, batch.system(index))
 
 
 def test_the_first_look_at_a_poor_witness_is_what_is_said_of_it() -> None:
     """Of all systems with one fault or two; that the columns depend is no reason with one fault alone unless both are zero."""
-    for facts in chunks(Box(total=4, largest_n=1, largest_m=2, largest_p=1)):
-        assert list(poor(facts)) == [bool(degenerate(facts.system(index))) for index in range(len(facts.A))]
+    for batch in batches(Box(n=(1, 1), m=(1, 2), p=(1, 1), total=4)):
+        poor = set(rows_where((POOR,), batch))
+        assert [index in poor for index in range(len(batch))] == [bool(degenerate(batch.system(index))) for index in range(len(batch))]
 
 
 def test_a_look_for_trajectories_leaves_out_what_cannot_fail() -> None:
     """With excitation kept these are left-invertible systems of lag 1 at most; without it, it is nothing but what violates what is kept."""
-    for facts in chunks(Box(total=4, largest_n=2, largest_m=1, largest_p=2)):
+    for batch in batches(Box(n=(1, 2), m=(1, 1), p=(1, 2), total=4)):
         for kept in ((), (trajectories.PERSISTENT,), ("left-invertible", trajectories.FULL_ROW_RANK)):
-            looks = {poor_ones: trajectories._open_still(kept, poor_ones, facts) for poor_ones in (False, True)}
-            for index in range(0, len(facts.A), max(1, len(facts.A) // 60)):
-                system = facts.system(index)
+            looks = {one: set(rows_where(tuple(trajectories._open_still(kept, one)), batch)) for one in (False, True)}
+            for index in range(0, len(batch), max(1, len(batch) // 60)):
+                system = batch.system(index)
                 known = facets(system)
                 settled = len(kept) > 0 and known.left_invertible and known.lag <= 1
                 still = not settled and (known.left_invertible or "left-invertible" not in kept)
-                assert [looks[one][index] for one in (False, True)] == [still and bool(degenerate(system)) == one for one in (False, True)]
+                poor = bool(degenerate(system))
+                assert [index in looks[one] for one in (False, True)] == [still and poor == one for one in (False, True)]
 
 
 def test_what_a_poor_witness_is() -> None:
-    sound = next(facts.system(len(facts.A) - 1) for facts in chunks(Box(total=3, largest_n=1, largest_m=1, largest_p=1)))
+    *_, sound = in_order(Box(n=(1, 1), m=(1, 1), p=(1, 1), total=3))
     assert degenerate(sound) == ""
     assert degenerate(sound.with_faults(sound.F - sound.F, sound.G)) == "F = 0"
     assert "dependent" in degenerate(sound.with_faults(sound.F - sound.F, sound.G - sound.G))

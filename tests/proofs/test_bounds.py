@@ -18,9 +18,9 @@ import faultspace as fs
 from faultspace.base.errors import InvalidInput
 from faultspace.base.progress import silent
 from faultspace.exact import PrimeField, Rationals, ResidualSystem
-from faultspace.proofs.brought import conjecturing, tables
+from faultspace.proofs.boxes.box import Box
+from faultspace.proofs.brought import conjecturing, sparse_systems, tables
 from faultspace.proofs.brought.bounds import ABOVE, BELOW, Fit, Fitted, Form, Grammar, Term, fit, forms
-from faultspace.proofs.brought.boxes import Box
 from faultspace.proofs.brought.claims import Answered, make_box, make_claim
 from faultspace.proofs.brought.conjectures import Bound, Conjectures, Sharpened
 from faultspace.proofs.brought.conjecturing import sharpen
@@ -46,6 +46,7 @@ def few_outside(monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest)
     if "all_outside" not in request.fixturenames:
         monkeypatch.setattr(tables, "MOST_SUMS", 300)
         monkeypatch.setattr(tables, "MOST_MET", 100)
+        monkeypatch.setattr(sparse_systems, "BATCHES", 1)
 
 
 @pytest.fixture
@@ -460,3 +461,40 @@ def test_the_answers_are_as_the_schema_says() -> None:
     broken["above"][0]["sharper"] = []
     assert list(checker.iter_errors(broken))
     assert conjecturing.MOST == 10**9 and "tried" in found[0].summary()
+
+
+# -- what sparse systems refute ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("by", "false", "seed", "batches"),
+    [
+        (["delay_known", "lag"], "controllability_index >= min(delay_known, lag)", 5, 22),
+        (["delay_known", "rank(C @ F)"], "controllability_index >= delay_known - rank(C @ F)", 2, 4),
+    ],
+)
+def test_a_bound_that_sparse_systems_refute_is_not_offered(
+    by: list[str], false: str, seed: int, batches: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each stands without the attack; the draws given are the first of users that refute it."""
+
+    def offered() -> Conjectures:
+        return fs.conjecture("controllability_index", hypotheses=["left_invertible"], by=by, box={"total": 4})
+
+    monkeypatch.setattr(sparse_systems, "BATCHES", 0)
+    assert false in [one.text for one in offered().below]
+    assert seed in sparse_systems.SEEDS
+    for name, value in (("SEEDS", (seed,)), ("BATCHES", batches), ("SECONDS", 600.0)):
+        monkeypatch.setattr(sparse_systems, name, value)
+    found = offered()
+    assert found.tried.sparse == 250 * batches > found.tried.sparse_met > 0 and f"; {found.tried.sparse} sparse ones" in found.tried.words
+    assert false not in [one.text for one in found.below]
+
+
+def test_a_bound_says_that_it_is_no_theorem_or_which_one_it_is() -> None:
+    found = fs.conjecture("lag", by=["n", "zeta", "normal_rank"], box=SMALL)
+    assert all(one.standing.startswith("not refuted up to 6 states by what was tried; ") for one in (*found.above, *found.below))
+    by_n = fs.conjecture("lag", by=["n"], box=SMALL).above[0]
+    assert (by_n.text, by_n.theorems) == ("lag <= n", ("lag_at_most_n",)) and by_n.standing.endswith("; it follows from lag_at_most_n")
+    assert by_n.to_json()["theorems"] == ["lag_at_most_n"] and ("  standing", by_n.standing) in list(by_n.sheet("above 1"))
+    assert any(one.standing.endswith("; no theorem") for one in fs.conjecture("n_z", by=["n", "p"], box=SMALL).below)

@@ -181,8 +181,8 @@ def test_boxes_too_large_for_a_table_are_left_out_and_say_so(about: str) -> None
 
 
 def test_seconds_that_fit_no_table_are_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    from faultspace.proofs.brought import pair_boxes
+    from faultspace.proofs.boxes import pair_box
 
-    monkeypatch.setattr(pair_boxes, "LARGEST_TABLE", 20)
+    monkeypatch.setattr(pair_box, "LARGEST_TABLE", 20)
     found = fs.claim("True", about=PAIR, box={"n": [1, 1], "m": [1, 1], "p": [1, 1]}, ablation=False).answers[0]
     assert found.tried.systems == 0 and not found.tried.exhausted

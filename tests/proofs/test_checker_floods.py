@@ -72,6 +72,7 @@ def code_in_time(one: Flood, file: Path) -> int:
     return found.code
 
 
+@pytest.mark.programs
 @pytest.mark.timeout(3000)
 def test_floods_are_answered_or_refused_in_time(tmp_path: Path) -> None:
     step = 1 if os.environ.get("FAULTSPACE_FLOODS") == "all" else every(40)
@@ -96,6 +97,7 @@ def test_blocks_that_have_rows_and_no_column_are_charged_for(tmp_path: Path) -> 
     assert "units of work" in cost(file).said  # 184 million steps: eight seconds, when they cost nothing
 
 
+@pytest.mark.programs
 def test_a_checker_that_does_not_charge_is_flooded(tmp_path: Path) -> None:
     """The measure sees what it is to see: without the bounds the same files cost more."""
     own = Path(checker_structure.__file__)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from math import inf
+from time import process_time
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,8 @@ import pytest
 from faultspace.base.errors import InvalidInput
 from faultspace.exact import ResidualSystem
 from faultspace.exact.algebra.fields import PrimeField
-from faultspace.proofs.brought.boxes import Box, stretches
+from faultspace.proofs.boxes.box import Box
+from faultspace.proofs.brought.claim_files import read_claims
 from faultspace.proofs.language.by_batches import Table, UndefinedAt, true_of
 from faultspace.proofs.language.evaluating import Exactly, evaluate
 from faultspace.proofs.language.grammar import read
@@ -247,7 +249,7 @@ def test_many_systems_at_once_are_decided_as_one_by_one(text: str, prime: int | 
     node, table = read(text), Table()
     rng = np.random.default_rng(5)
     for sizes in ((1, 1, 1), (1, 2, 1), (2, 1, 2)):
-        table, stretch = Table(), next(stretches(box, sizes, reduced=False))
+        table, stretch = Table(), next(box.stretches(sizes, reduced=False))
         rows = np.sort(rng.choice(len(stretch.batch), 12, replace=False))
         exact = []
         for i in rows:
@@ -276,3 +278,21 @@ def test_over_a_prime_field_matrices_are_reduced() -> None:
 def test_infinity_is_a_number_that_compares() -> None:
     assert value("delay_known", ResidualSystem.of([[0]], [[0]], [[1]], [[0]]), Kind.INTEGER) == inf
     assert value("delay_known >= 10 and delay_known == inf and delay_known + 1 == inf", ResidualSystem.of([[0]], [[0]], [[1]], [[0]]))
+
+
+@pytest.mark.parametrize("text", ["\uff4e >= 1", "lag <= \uff11", "\U0001d427 >= 1", "n \u2265 1", "n >= 1\u200b", "n\u00a0>= 1 or \u043f"])
+def test_letters_that_look_alike_are_not_those_of_the_language(text: str) -> None:
+    with pytest.raises(InvalidInput, match=r"column [0-9]+: got .*, expected letters, digits and signs of ASCII"):
+        read(text)
+
+
+def test_a_key_of_many_parts_is_refused_at_once() -> None:
+    begun = process_time()
+    dotted = ".".join(["a"] * 20_000)
+    for text in (f"{dotted} = 1", f"[{dotted}]", f"a = {{{dotted} = 1}}", " . ".join(["'a'"] * 20_000) + " = 1", "x" * 10**6):
+        with pytest.raises(InvalidInput):
+            read_claims(text)
+    assert process_time() - begun < 2.0
+    text = "a.b." * 30
+    (claim,) = read_claims(f'# {text}\n[claim.one]\nstatement = \'{text}\'\nsource = """\n{text}"""\nconclusion = \'lag <= n\'\n')
+    assert claim.statement == text

@@ -20,9 +20,9 @@ import faultspace as fs
 from faultspace.base.errors import InvalidInput
 from faultspace.exact import ResidualSystem
 from faultspace.packaged_examples import CLAIMS, content
-from faultspace.proofs.brought import boxes
+from faultspace.proofs.boxes import box as boxes
+from faultspace.proofs.boxes.box import Box
 from faultspace.proofs.brought.answers import ClaimAnswer, Counterexample
-from faultspace.proofs.brought.boxes import Box, stretches
 from faultspace.proofs.brought.claim_files import read_claims
 from faultspace.proofs.brought.claims import Answered, make_claim
 from faultspace.proofs.brought.known_cases import smaller
@@ -72,8 +72,8 @@ BOXES = [
 def test_a_box_is_gone_through_in_the_stated_order(box: Box) -> None:
     listed = []
     for sizes in box.sizes():
-        for stretch in stretches(box, sizes, reduced=False):
-            order = np.argsort(stretch.places, kind="stable")
+        for stretch in box.stretches(sizes, reduced=False):
+            order = range(len(stretch.batch))
             listed += [stretch.batch.system(int(i)) for i in order]
     assert listed == list(in_order(box))
 
@@ -83,7 +83,7 @@ def test_a_box_is_gone_through_in_the_stated_order(box: Box) -> None:
 def test_the_systems_that_are_looked_at_stand_for_all(sizes: tuple[int, int, int], prime: int | None) -> None:
     box = make_claim("x", {"conclusion": "n == 1", "fields": ["Q" if prime is None else f"GF({prime})"]}).boxes
     one = next(iter(box.values()))
-    total = sum(int(stretch.weights.sum()) for stretch in stretches(one, sizes, reduced=True))
+    total = sum(int(stretch.weights.sum()) for stretch in one.stretches(sizes, reduced=True))
     assert total == one.count(*sizes)
 
 
@@ -108,7 +108,7 @@ def test_the_first_of_each_orbit_is_looked_at_and_no_other(sizes: tuple[int, int
             firsts.add(min(images))
             seen |= {sum(one, ()) for one in images}
     looked_at = set()
-    for stretch in stretches(box, sizes, reduced=True):
+    for stretch in box.stretches(sizes, reduced=True):
         batch = stretch.batch
         for i, weight in enumerate(stretch.weights):
             parts = tuple(part[i] for part in (batch.A, batch.F, batch.C, batch.G))

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from faultspace.base.errors import InvalidInput
+from faultspace.base.progress import silent
 from faultspace.proofs import deciding
 from faultspace.proofs.deciding import Check, decided
 from faultspace.proofs.evidence.material import Carried, Folder, Material, Packed, Shelf, Wanted
@@ -18,10 +19,6 @@ from faultspace.proofs.trust.checker import Rejected
 from faultspace.proofs.verdict.verdicts import ClaimResult, Report
 from faultspace.proofs.verdict.workbench import Workbench
 from faultspace.proofs.verification import verify
-
-
-def quiet(stage: str, done: int, total: int) -> None:
-    """Return a progress that nobody watches."""
 
 
 def three(bench: Any) -> Iterator[int]:
@@ -54,9 +51,9 @@ NOTHING = Material("nothing", "counting", without_items, twice, 1)
 # Two processes start slowly; daily the main job decides everything in two (end_to_end/test_main_job.py), and one keeps errors here.
 @pytest.mark.parametrize("jobs", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_material_is_in_order_and_an_error_is_kept_for_who_asks(jobs: int, tmp_path: Path) -> None:
-    bench = Workbench("quick", jobs, quiet)
+    bench = Workbench("quick", jobs, silent)
     bench.make([TWICE, REFUSED, NOTHING], Folder(tmp_path))
-    for reader in (bench, Workbench("quick", 1, quiet, Folder(tmp_path))):
+    for reader in (bench, Workbench("quick", 1, silent, Folder(tmp_path))):
         assert reader.material(TWICE) == (0, 0, 1, 10, 2, 20)
         with pytest.raises(Rejected, match="two is not accepted"):
             reader.material(REFUSED)
@@ -67,7 +64,7 @@ def test_material_is_in_order_and_an_error_is_kept_for_who_asks(jobs: int, tmp_p
 def test_kinds_made_together_are_loaded_together_by_who_asks_and_not_by_who_makes(tmp_path: Path) -> None:
     """What was put there before stays; kinds of no items are there, and empty."""
     alike, none = Material("alike", "counting", three, twice, 2), Material("none", "counting", no_items, twice, 2)
-    maker, reader = Workbench("quick", 1, quiet), Workbench("quick", 1, quiet, Folder(tmp_path))
+    maker, reader = Workbench("quick", 1, silent), Workbench("quick", 1, silent, Folder(tmp_path))
     maker.make([TWICE, alike, none], Folder(tmp_path))
     assert not maker._made
     assert reader.material(none) == () and list(reader._made) == ["none"]
@@ -79,7 +76,7 @@ def test_kinds_made_together_are_loaded_together_by_who_asks_and_not_by_who_make
 
 def test_what_is_not_on_the_shelf_is_wanted_all_at_once(tmp_path: Path) -> None:
     shelf = Folder(tmp_path)
-    reader = Workbench("quick", 1, quiet, shelf)
+    reader = Workbench("quick", 1, silent, shelf)
     shelf.put(Packed((TWICE.name,), (pickle.dumps([[1, 2]]),)))
     with pytest.raises(Wanted) as raised:
         reader.need(REFUSED, TWICE, NOTHING)
@@ -87,13 +84,13 @@ def test_what_is_not_on_the_shelf_is_wanted_all_at_once(tmp_path: Path) -> None:
     with pytest.raises(Wanted):
         reader.material(REFUSED)
     reader.need(TWICE)
-    Workbench("quick", 1, quiet).need(REFUSED)  # made where it is asked for
+    Workbench("quick", 1, silent).need(REFUSED)  # made where it is asked for
 
 
 @pytest.mark.slow  # the main job finds in two processes what the certificates of the tree, and the ledger, say
 def test_processes_decide_as_one_does() -> None:
     tasks = [Check("example_v.one_fault"), Check("bad_set.codimension_unobservable"), Check("nowhere.at_all")]
-    alone, together = (decided(Workbench("quick", jobs, quiet), tasks) for jobs in (1, 2))
+    alone, together = (decided(Workbench("quick", jobs, silent), tasks) for jobs in (1, 2))
     assert {task: answer.found for task, answer in alone.items()} == {task: answer.found for task, answer in together.items()}
     assert "No module named" in together[tasks[2]].found.evidence
 
@@ -116,7 +113,7 @@ def test_a_task_that_asks_is_tried_again_when_that_is_there(monkeypatch: pytest.
             return "done"
 
     tasks: Any = [Asking(), Free()]
-    answers = deciding._in_rounds(Workbench("quick", 1, quiet), tasks, shelf)
+    answers = deciding._in_rounds(Workbench("quick", 1, silent), tasks, shelf)
     assert tried == ["asking", "free", "asking", "asking"]
     assert [answers[task].found for task in tasks] == [(0, 0, 1, 10, 2, 20) * 2, "done"]
 

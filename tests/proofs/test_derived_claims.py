@@ -18,11 +18,12 @@ from faultspace.proofs.brought.claim_files import read_claims
 from faultspace.proofs.brought.claiming import claim
 from faultspace.proofs.brought.claims import Answered, make_claim
 from faultspace.proofs.brought.deriving import Theorem, derived
-from faultspace.proofs.brought.readings import asked_by, decide_reading, readings
+from faultspace.proofs.brought.readings import decide_reading, readings
 from faultspace.proofs.brought.theorems import proof_of, theorems
 from faultspace.proofs.brought.trying import Question, search
 from faultspace.proofs.evidence.corpus import CORPUS, examine
 from faultspace.proofs.evidence.families import adversarial
+from faultspace.proofs.language.certified import asked_by
 from faultspace.proofs.language.grammar import read
 from faultspace.proofs.language.vocabularies import SYSTEM
 from faultspace.proofs.rocq.locks import held
@@ -118,7 +119,7 @@ def test_a_claim_of_the_ledger_is_proved_just_where_rocq_has_proved_it() -> None
     verdicts = {f"{one.id}--{reading.id}": reading.proved for one in load() for reading in one.readings}
     listed = [one for one in readings().values() if one.about == SYSTEM]  # the theorems in the language are about single systems
     chosen = listed[:: 1 if every() == 1 else 10]
-    assert len(listed) == 30
+    assert len(listed) == 31
     for one in chosen:
         found = proof_of([each.that for each in one.hypotheses], one.conclusion)
         assert (found is not None) == (verdicts[one.id] == "PROVED"), one.id
@@ -306,4 +307,4 @@ def test_every_text_that_verify_uses_can_be_decided_by_certificates() -> None:
     used = {reading.check.partition(".")[2] for one in load() for reading in one.readings if reading.check.startswith(f"{IN_LANGUAGE}.")}
     assert len(used) >= 25
     for name in used:
-        assert asked_by(readings()[name])
+        assert asked_by(*readings()[name].nodes)

@@ -23,7 +23,7 @@ def _small_parts(monkeypatch: pytest.MonkeyPatch) -> None:
     """Boxes of a thousand systems are cut as those of many millions are, and their systems come in short stretches."""
     monkeypatch.setattr(kept, "WORTH_SHARING", 100)
     monkeypatch.setattr(kept, "SYSTEMS_A_PART", 200)
-    monkeypatch.setattr("faultspace.proofs.brought.boxes.AT_ONCE", 20)
+    monkeypatch.setattr("faultspace.proofs.boxes.box.AT_ONCE", 20)
     monkeypatch.setattr("faultspace.proofs.brought.deciding.proof_of", lambda hypotheses, conclusion: None)  # it takes a second each
 
 

@@ -16,16 +16,15 @@ from faultspace.exact.algebra.embeddings import RealField, inside_the_circle, on
 from faultspace.exact.algebra.fields import QQ, NumberField, PrimeField
 from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.system.systems import ResidualSystem
-from faultspace.proofs.brought.boxes import stretches
 from faultspace.proofs.brought.claiming import explain
 from faultspace.proofs.brought.claims import make_claim
 from faultspace.proofs.brought.fields import in_a, read_entries, read_field, usual_entries
+from faultspace.proofs.evidence.subjects import Subject
 from faultspace.proofs.language.by_batches import Table, true_of
 from faultspace.proofs.language.evaluating import evaluate, exactly
 from faultspace.proofs.language.grammar import read
 from faultspace.proofs.quantities.ranks import CHARACTERISTIC, FAMILIES, MINORS, Ranks
 from faultspace.proofs.quantities.registry import quantities
-from faultspace.proofs.quantities.subjects import Subject
 from faultspace.proofs.trust.structure_certificates import accept
 from tests.oracle.words import by_definition, windows_by_definition
 from tests.thorough import examples
@@ -150,7 +149,7 @@ def test_whether_a_system_is_stable_depends_on_the_root() -> None:
 def systems_of(text: str, sizes: tuple[int, int, int], count: int, entries: list[Any] | None = None) -> tuple[Any, list[int]]:
     given: dict[str, Any] = {"conclusion": "True", "fields": [text]}
     box = make_claim("x", given | {"box": {"n": [0, 3], "m": [0, 2], "p": [0, 2]} | ({"entries": entries} if entries else {})}).boxes[text]
-    stretch = next(stretches(box, sizes, reduced=False))
+    stretch = next(box.stretches(sizes, reduced=False))
     return stretch.batch, sorted(random.Random(text).sample(range(len(stretch.batch)), min(count, len(stretch.batch))))
 
 

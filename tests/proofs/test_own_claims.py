@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from faultspace.base.progress import silent
 from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.pairs.witnesses import BadPair, bad_pair, good_columns
 from faultspace.exact.system.systems import ResidualSystem
@@ -18,14 +19,10 @@ from faultspace.proofs.verdict.workbench import Workbench
 from tests.oracle import truth
 
 
-def quiet(stage: str, done: int, total: int) -> None:
-    """Return a progress that nobody watches."""
-
-
 @pytest.fixture(scope="module")
 def bench() -> Workbench:
     """Return a workbench with the pairs of every sixth system of the quick run."""
-    made = Workbench("quick", 1, quiet)
+    made = Workbench("quick", 1, silent)
     made.pairs_by_polynomial = tuple(one for item in list(PAIRS_BY_POLYNOMIAL.items(made))[::6] for one in PAIRS_BY_POLYNOMIAL.make(item))
     made.alternatives = tuple(one for item in list(ALTERNATIVES.items(made))[::9] for one in ALTERNATIVES.make(item))
     return made
@@ -60,7 +57,7 @@ def test_what_is_tampered_with_no_longer_agrees(change: dict[str, object]) -> No
 
 
 def test_readings_are_refuted_by_tampered_pairs(bench: Workbench) -> None:
-    spoilt = Workbench("quick", 1, quiet)
+    spoilt = Workbench("quick", 1, silent)
     spoilt.pairs_by_polynomial = tuple(replace(d, equal=not d.equal, zeta=d.zeta + 1) for d in bench.pairs_by_polynomial)
     for reading in (one_determinant.formula, zeros_of_pairs.number, bad_set.one_fault, zero_assignment.every_polynomial):
         assert reading(bench).verdict == Verdict.CERTIFIED, reading

@@ -7,21 +7,20 @@ from pathlib import Path
 
 import pytest
 
-from faultspace.proofs.brought.instances import meeting, supposed
+from docs.tools.instances import meeting, supposed
+from docs.tools.paper_to_proof import NONE, of_the_paper, page
+from docs.tools.premises import premises
 from faultspace.proofs.brought.readings import readings
 from faultspace.proofs.language.evaluating import Exactly, evaluate, exactly
-from faultspace.proofs.paper_page import NONE, of_the_paper
-from faultspace.proofs.rocq.premises import premises
 from faultspace.proofs.rocq.statements import Headline
 from faultspace.proofs.verdict.ledger import load
 
 ROOT = Path(__file__).parents[2]
-PAGE = ROOT / "docs" / "paper-to-proof.md"
 
 
 def sections() -> dict[str, str]:
     """Return claim -> its section of the page."""
-    _, *found = re.split(r"^## ", PAGE.read_text("utf-8"), flags=re.MULTILINE)
+    _, *found = re.split(r"^## ", page(), flags=re.MULTILINE)
     return {text.partition("\n")[0]: text for text in found}
 
 
@@ -36,14 +35,14 @@ def test_every_claim_of_the_paper_is_on_the_page_with_its_readings() -> None:
 
 
 def test_every_theorem_of_the_page_is_a_headline_and_stands_on_that_line() -> None:
-    told = re.findall(r"^- `(\w+)`, \[\w+\.v\]\(\.\./([^)]+)\), line (\d+)\.", PAGE.read_text("utf-8"), re.MULTILINE)
+    told = re.findall(r"^- `(\w+)`, \[\w+\.v\]\(\.\./\.\./([^)]+)\), line (\d+)\.", page(), re.MULTILINE)
     assert {name for name, _, _ in told} == {name for claim in of_the_paper() for one in claim.readings for name in one.theorems}
     for name, file, line in told:
         assert (ROOT / file).read_text("utf-8").splitlines()[int(line) - 1].startswith(f"Theorem {name} ")
 
 
 def test_the_page_counts_what_it_says() -> None:
-    text = PAGE.read_text("utf-8")
+    text = page()
     told = " ".join(text.split())
     empty = re.findall(rf"^\*\*([\w-]+)\*\*(?:(?!^\*\*)[\s\S])*?^- Met by: {NONE}\.", text, re.MULTILINE)
     assert f"; of {len(empty)} {NONE}: {', '.join(f'`{one}`' for one in empty)}." in told if empty else NONE not in told.partition("## ")[2]

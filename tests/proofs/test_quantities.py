@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
 from itertools import product
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -13,14 +14,17 @@ import pytest
 
 from faultspace.exact import Matrix, ResidualSystem
 from faultspace.exact.algebra.fields import QQ, Field, PrimeField
+from faultspace.proofs.evidence.corpus import examine
+from faultspace.proofs.language.evaluating import Exactly, evaluate, exactly
+from faultspace.proofs.language.grammar import read
 from faultspace.proofs.quantities import elimination
 from faultspace.proofs.quantities.batches import FIND, Batch
 from faultspace.proofs.quantities.elimination import Overflow, determinants, leading_ranks
 from faultspace.proofs.quantities.ranks import CHARACTERISTIC, MINORS, Ranks
-from faultspace.proofs.quantities.registry import Quantity, Subject, quantities
+from faultspace.proofs.quantities.registry import Kind, Quantity, Subject, quantities
 from faultspace.proofs.trust.structure_certificates import Unprovable, accept
 from tests.oracle.words import Words, by_definition, by_words, windows_by_definition, windows_by_words
-from tests.thorough import THOROUGH, every
+from tests.thorough import THOROUGH, every, sampled
 
 Sizes = tuple[int, int, int]
 # every system over GF(2) of these sizes, n, m, p; and over Q with entries -1, 0, 1
@@ -115,8 +119,8 @@ def _broken(value: Any) -> Any:
     return (*value, 0) if isinstance(value, tuple) else value + 1 if value != float("inf") else 0
 
 
-@pytest.mark.parametrize("name", list(quantities()))
 @pytest.mark.parametrize("way", ["exact", "from_ranks"])
+@pytest.mark.parametrize("name", sampled(quantities(), 9))
 def test_a_broken_quantity_is_noticed(name: str, way: str) -> None:
     """It is wrong for the systems with at least one state alone, and in one of its two ways."""
     right = quantities()[name]
@@ -199,6 +203,62 @@ def test_certificates_state_the_values() -> None:
         driven, window = (one["rank"] for one in stated["strongly_reachable_dimension"])
         assert window - driven == subject.strongly_reachable.ncols
         assert max(stated["controllability_index"][0]["left_minimal_indices"], default=0) == subject.reached.lag
+
+
+def told(system: ResidualSystem, one: Quantity) -> Any:
+    """Return what accepted certificates tell of a system, of windows the values at 0, ..., n + 3 samples."""
+    assert one.told is not None
+    evidence = examine("a test", system, questions=one.told.asks)
+    return [one.told.read(evidence, s) for s in range(system.n + 4)] if one.windowed else one.told.read(evidence)
+
+
+@pytest.mark.parametrize("name", [name for name, one in quantities().items() if one.told is not None])
+def test_certificates_tell_the_value(name: str) -> None:
+    """Each value is read off answers to the questions that the quantity asks, and to no other."""
+    one = quantities()[name]
+    for system in SMALL:
+        subject = Subject(system)
+        value = [one.exact(subject, s) for s in range(system.n + 4)] if one.windowed else one.exact(subject)
+        assert told(system, one) == value, system
+
+
+def broken_rules(quantity: Quantity) -> list[str]:
+    """Return where what derivations use of a quantity is not so: on systems of which exact functions tell what it speaks of."""
+    wrong = []
+    for subject in map(Subject, SMALL):
+        knows = exactly(subject.system, subject)
+
+        def value(text: str, knows: Exactly = knows) -> Any:
+            return evaluate(read(text, Kind.INTEGER), knows) if text else 0
+
+        if quantity.circle or quantity.windowed:
+            continue
+        found = quantity.exact(subject)
+        if quantity.kind == Kind.INTEGER:
+            sound = found >= 0 and (quantity.infinite or found < inf) and all(found <= value(one) for one in quantity.at_most)
+            sound &= not quantity.parts or found == sum(map(value, quantity.parts))
+        elif quantity.kind == Kind.LIST:
+            sound = quantity.balance is None or len(found) == value(quantity.balance[0]) - value(quantity.balance[1])
+        else:
+            sound = quantity.balance is None or found == (value(quantity.balance[0]) == value(quantity.balance[1]))
+            sound &= not quantity.parts or found == all(quantities()[one].exact(subject) for one in quantity.parts)
+        if not sound:
+            wrong.append(f"{quantity.name} = {found} of {subject.system}")
+    return wrong
+
+
+def test_what_derivations_use_of_a_quantity_is_so_and_what_is_not_is_noticed() -> None:
+    known = quantities()
+    assert [wrong for one in known.values() for wrong in broken_rules(one)] == []
+    spoilt = [
+        replace(known["delay_known"], infinite=False),
+        replace(known["lag"], at_most=("finite_zeros",)),
+        replace(known["zeta"], parts=("finite_zeros",)),
+        replace(known["minimal"], parts=("observable",)),
+        replace(known["left_invertible"], balance=("normal_rank", "p")),
+        replace(known["left_minimal_indices"], balance=("m", "normal_rank")),
+    ]
+    assert all(broken_rules(one) for one in spoilt)
 
 
 def test_ranks_of_leading_rows_are_those_of_exact_matrices() -> None:

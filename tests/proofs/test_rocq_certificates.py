@@ -1,4 +1,4 @@
-"""Rocq's kernel and the checker agree: on every shipped certificate of a covered kind, and on well-formed mutations of small ones."""
+"""Rocq's kernel and the checker agree: on every certificate of a run of a covered kind, and on well-formed mutations of small ones."""
 
 from __future__ import annotations
 
@@ -22,6 +22,7 @@ from faultspace.proofs.rocq.listed import NotCovered
 from faultspace.proofs.rocq.numbered import numbers_of
 from faultspace.proofs.rocq.recompute import ACCEPTED, decided, proved, recomputed, theory
 from faultspace.proofs.rocq.sources import sources
+from faultspace.proofs.rocq.statements import VOCABULARY, read
 from faultspace.proofs.rocq.terms import Terms
 from faultspace.proofs.trust import checker
 from tests.end_to_end.commands import call
@@ -30,8 +31,6 @@ from tests.proofs.test_mutations import SYSTEMS, mutated, mutations, of_one_syst
 from tests.thorough import THOROUGH
 
 needs_rocq = pytest.mark.skipif(rocq_build.found() is None, reason=rocq_build.INSTALL)
-KEPT = resources.files("faultspace.proofs").joinpath("certificates").iterdir()
-SHIPPED = [json.loads(one.read_text("utf-8")) for one in KEPT if re.fullmatch(r".+-.+\.json", one.name)]
 EVERY = 307  # mutation is tried
 ONLY_RATIONAL = "of experiments over Q alone"
 FALSE = spoiled(RANKS, ("statement.normal_rank", 2))
@@ -64,12 +63,14 @@ def small_ones() -> list[dict[str, Any]]:
 
 @needs_rocq
 @pytest.mark.slow
-def test_the_kernel_proves_every_shipped_certificate_of_a_covered_kind() -> None:
-    about = [c for c in SHIPPED if covered(c)]
+def test_the_kernel_proves_every_certificate_of_a_run_of_a_covered_kind(certificates_of_a_run: Path) -> None:
+    made = [json.loads(one.read_text("utf-8")) for one in sorted(certificates_of_a_run.glob("*-*.json"))]
+    about = [c for c in made if covered(c)]
     assert {c["kind"] for c in about} >= {*COVERED} - {"behaviour-inclusion"} and {*map(over, about)} == {"Q", "GF", "Q(a)"}
     assert recomputed(about) == [ACCEPTED] * len(about)
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_the_kernel_proves_small_certificates_of_every_covered_kind() -> None:
     every_one = sorted(small_ones(), key=kind_and_field)
@@ -79,6 +80,7 @@ def test_the_kernel_proves_small_certificates_of_every_covered_kind() -> None:
     assert recomputed(about) == [ACCEPTED] * len(about)
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_rocq_and_the_checker_agree_on_mutations() -> None:
     every = [(c, path, value) for c in small_ones() for path, value in mutations(c)]
@@ -108,6 +110,20 @@ def test_rocq_and_the_checker_agree_on_mutations() -> None:
     for field in ("Q", "GF", "Q(a)"):
         of_field = [verdict for verdict, candidate in zip(verdicts, tried, strict=True) if over(candidate) == field]
         assert min(of_field.count(True), of_field.count(False)) > 10, field
+
+
+def test_what_is_stated_is_read_before_any_file_of_proofs_is_imported() -> None:
+    """A file of proofs could have another meaning for a word: only what the locks hold may stand before the last statement."""
+    text = rocq_export.written([exported(certificate) for certificate in small_ones()[:40]])
+    before = text[: text.rindex("Definition said : Prop")]
+    required = re.findall(r"From faultspace Require Import ([\w ]+)\.", before)
+    assert len(required) == 1 and all(VOCABULARY.fullmatch(f"{name}.v") for name in required[0].split())
+    words = {name for said in re.findall(r"Definition said : Prop := (.*)\.\n", text) for name in re.findall(r"[A-Za-z_]\w*", said)}
+    ours = {name for file in sources() for name in re.findall(r"^(?:Definition|Fixpoint|Record) (\w+)", sources()[file], re.MULTILINE)}
+    locked = {name for found in read(sources()).words.values() for name in found}
+    own = {name for terms in map(exported, small_ones()[:40]) for name, *_ in terms.definitions}
+    bound = set(" ".join(re.findall(r"(?:forall|fun|exists) ([\w ]+)", text)).split())
+    assert words & ours <= locked | own | bound, "and the statement uses no word of another file"
 
 
 @needs_rocq
@@ -150,7 +166,7 @@ def everywhere(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...
 def text_of(certificate: dict[str, Any], write: Callable[[dict[str, Any]], Terms]) -> str | None:
     """Returns what Rocq would read; None where the exporter refuses."""
     try:
-        return f"{(terms := write(certificate)).theorem()} {terms.check}"
+        return f"{(terms := write(certificate)).claimed()}{terms.proof()} {terms.check}"
     except (checker.Malformed, checker.Rejected, NotCovered):
         return None
 

@@ -167,6 +167,7 @@ def ask_about_mutations(questions: Questions, seed: int, count: int) -> tuple[in
     return verdicts.count(True), verdicts.count(False)
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_rocq_refuses_hints_that_prove_nothing_and_agrees_with_the_checker() -> None:
     questions = Questions()

@@ -64,6 +64,7 @@ def weakened(condition: str) -> str:
     return f"Set Implicit Arguments. Unset Strict Implicit.\nSection Weakened. Variable R : arithmetic.\n{weaker}\nEnd Weakened.\n"
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_each_condition_is_needed() -> None:
     questions = Questions()
@@ -76,6 +77,7 @@ def test_each_condition_is_needed() -> None:
     assert questions.wrong() == []
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_rocq_and_the_checker_agree_on_mutations_of_infinite_zeros() -> None:
     made = [one for one in small_ones() if one["kind"] == "infinite-zeros"]

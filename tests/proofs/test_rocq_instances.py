@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
 
+from docs.tools.premises import instances, together
 from faultspace.proofs.rocq.build import CLOSED, BrokenTheory, NoRocq, NotProved, compile_file, compiled_theory
-from faultspace.proofs.rocq.premises import instances, together
 from faultspace.proofs.rocq.sources import beyond, sources
 from faultspace.proofs.rocq.statements import Headline, read
 from faultspace.proofs.rocq.theorems import proposition
 
 TEXTS, BEYOND = sources(), beyond()
 STATEMENTS = read(TEXTS)
-INSTANCES = instances(STATEMENTS, TEXTS)
+stated = cache(lambda: instances(STATEMENTS, TEXTS))
 REAL_CLOSED = "From mathcomp.real_closed Require Import realalg.\n"
 
 MADE = [
@@ -51,10 +52,10 @@ def test_what_says_that_premises_hold_together(statement: str, wanted: tuple[str
 
 def test_each_headline_that_supposes_something_has_an_instance_of_all_its_premises() -> None:
     wanted = {name: said for name, headline in STATEMENTS.headlines.items() if (said := together(headline))}
-    found = {*INSTANCES, *instances(STATEMENTS, BEYOND)}
+    found = {*stated(), *instances(STATEMENTS, BEYOND)}
     assert {f"{name}_instance{said[0]}": "is not there" for name, said in wanted.items() if name not in found} == {}
     assert len(wanted) > 150 and found == set(wanted)
-    for name, one in INSTANCES.items():
+    for name, one in stated().items():
         assert TEXTS[one.file].splitlines()[one.line - 1].startswith(f"Theorem {name}_instance")
 
 
@@ -84,15 +85,15 @@ def question() -> str:
     """Return a file in which Rocq reads each instance as the file of its headline would, proves it by the theorem, and says what all rest
     on."""
     lines = ["From mathcomp Require Import all_ssreflect all_algebra."]
-    lines += [f"From faultspace Require Headlines {' '.join(sorted({one.file.removesuffix('.v') for one in INSTANCES.values()}))}."]
-    for file in sorted({STATEMENTS.headlines[name].file for name in INSTANCES}):
+    lines += [f"From faultspace Require Headlines {' '.join(sorted({one.file.removesuffix('.v') for one in stated().values()}))}."]
+    for file in sorted({STATEMENTS.headlines[name].file for name in stated()}):
         lines += [f"Module In{file.removesuffix('.v')}.", STATEMENTS.openings[file]]
-        for name, one in INSTANCES.items():
+        for name, one in stated().items():
             if STATEMENTS.headlines[name].file == file:
                 said = re.sub(r"^: ", "", one.statement) if one.statement.startswith(": ") else proposition(one.statement)
                 lines += [f"Goal {said}.\nProof. exact (@{one.file.removesuffix('.v')}.{name}_instance). Qed."]
         lines += [f"End In{file.removesuffix('.v')}."]
-    named = (f"(fun (P : Prop) (_ : P) => I) _ (@{one.file.removesuffix('.v')}.{name}_instance)" for name, one in INSTANCES.items())
+    named = (f"(fun (P : Prop) (_ : P) => I) _ (@{one.file.removesuffix('.v')}.{name}_instance)" for name, one in stated().items())
     return "\n".join([*lines, f"Definition every_one := ({', '.join(named)}, I).", "Print Assumptions every_one.", ""])
 
 
@@ -109,7 +110,7 @@ def test_instances_mean_what_the_headlines_would_mean_by_them() -> None:
 def test_what_needs_more_of_mathcomp_is_proved_where_that_is_installed() -> None:
     """The files beside the theory state instances, too, and rest on nothing."""
     found = instances(STATEMENTS, BEYOND)
-    assert found and {one.file for one in found.values()} == set(BEYOND) and not set(found) & set(INSTANCES)
+    assert found and {one.file for one in found.values()} == set(BEYOND) and not set(found) & set(stated())
     try:
         theory: Path = compiled_theory()
     except NoRocq as reason:

@@ -6,13 +6,18 @@ import json
 import os
 import shutil
 import stat
+import subprocess
 from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
 
+from faultspace.cli.consoles import answers
+from faultspace.cli.verdict_summary import print_machine
 from faultspace.proofs.rocq import build as rocq_build
 from faultspace.proofs.rocq.recheck import recheck, second_check
+from faultspace.proofs.verdict.ledger import load
+from faultspace.proofs.verdict.verdicts import ClaimResult, Report
 
 COQCHK = shutil.which("coqchk")
 TINY = {
@@ -152,6 +157,7 @@ def test_only_what_the_kernel_computes_with_may_be_listed(
         second_check(tmp_path)
 
 
+@pytest.mark.programs
 @pytest.mark.skipif(rocq_build.found() is None or COQCHK is None, reason=rocq_build.INSTALL)
 def test_recheck_believes_nothing_that_was_compiled_before(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It does not believe even a forgery that nothing else notices: compiled files of another theory, with their digests, under our
@@ -257,6 +263,59 @@ def test_coqc_has_a_home_of_its_own(cache: Path, tmp_path: Path, monkeypatch: py
     home, scratch, folder, seconds = rocq_build.compile_file(tmp_path, "Asked.v", "Check True.\n", seconds=7).split()
     assert home == scratch and not Path(home).exists() and not Path(folder).exists() and int(seconds) == 8
     assert Path.home() not in (Path(home), Path(folder)) and Path.cwd() != Path(folder)
+
+
+def test_coqc_is_not_told_where_to_load_from(cache: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A compiler made for the test prints its environment: of the user's, what GIVEN names, and nothing that could load other files."""
+    misleading = ("COQPATH", "ROCQPATH", "OCAMLPATH", "COQLIB", "ROCQLIB", "COQBIN", "COQCORELIB", "CAML_LD_LIBRARY_PATH", "OCAMLFIND_CONF",
+                  "LD_PRELOAD", "LD_LIBRARY_PATH", "OCAMLRUNPARAM", "CAMLRUNPARAM", "COQEXTRAFLAGS", "DYLD_INSERT_LIBRARIES")  # fmt: skip
+    for name in misleading:
+        monkeypatch.setenv(name, str(tmp_path / "misled"))
+    for program in ("coqc", "coqchk"):
+        (tmp_path / program).write_text(f"#!/bin/sh\n/usr/bin/env > {tmp_path}/{program}.said; echo 9.9 9.9\n", "utf-8")
+        (tmp_path / program).chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+    rocq_build.found.cache_clear()
+    try:
+        assert rocq_build.found() == rocq_build.Rocq(str(tmp_path / "coqc"), "9.9")
+        rocq_build.compile_file(tmp_path, "Asked.v", "Check True.\n")
+        with pytest.raises(rocq_build.NotProved):
+            second_check(tmp_path)
+    finally:
+        rocq_build.found.cache_clear()
+    for program in ("coqc", "coqchk"):
+        said = (tmp_path / f"{program}.said").read_text("utf-8")
+        names = {line.partition("=")[0] for line in said.splitlines()} - {"_", "PWD", "SHLVL", "OLDPWD"}
+        assert names <= {*rocq_build.GIVEN, "HOME", "TMPDIR", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "OCAMLRUNPARAM"} and "misled" not in said
+
+
+@pytest.mark.skipif(rocq_build.found() is None, reason=rocq_build.INSTALL)
+def test_a_folder_mathcomp_on_coqpath_is_not_believed_and_what_is_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    other = tmp_path / "mathcomp" / "ssreflect"
+    other.mkdir(parents=True)
+    (other / "all_ssreflect.v").write_text("Definition forged := tt.\n", "utf-8")
+    subprocess.run(["coqc", "-q", "-R", str(tmp_path / "mathcomp"), "mathcomp", str(other / "all_ssreflect.v")], check=True)
+    monkeypatch.setenv("COQPATH", str(tmp_path))
+    (tmp_path / "coqc").write_text(f'#!/bin/sh\nexec {shutil.which("coqc")} "$@"\n', "utf-8")
+    (tmp_path / "coqc").chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+    for kept in (rocq_build.found, rocq_build._probed):
+        kept.cache_clear()
+    try:
+        believed = rocq_build.believed()
+    finally:
+        for kept in (rocq_build.found, rocq_build._probed):
+            kept.cache_clear()
+    assert believed["coqc"] == str(tmp_path / "coqc"), "a coqc that stands first on the path is told by its place"
+    assert str(tmp_path) not in str(believed["mathcomp"]) and str(believed["mathcomp"]).endswith("mathcomp")
+    words = rocq_build.told(believed)
+    assert all(str(believed[name]) in words for name in ("coqc", "version", "mathcomp")) and "coqchk" in words
+    claim = next(one for one in load() if one.id == "example-v")
+    print_machine(answers(), Report("quick", (ClaimResult(claim, ()),), (), "", 0.0, "asked", believed))
+    assert " ".join(words.split()) in " ".join(capsys.readouterr().out.split())
+    assert Report("quick", (), (), "", 0.0, "asked", believed).to_json()["believed"] == believed
 
 
 def test_a_cache_that_cannot_be_written_is_no_broken_theory(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:

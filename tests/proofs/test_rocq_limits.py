@@ -63,6 +63,7 @@ def stability_forgeries() -> dict[str, Terms]:
     }
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_each_condition_of_stability_is_needed() -> None:
     questions = Questions()
@@ -106,6 +107,7 @@ RANKS = {
 }
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_each_condition_of_a_limit_is_needed() -> None:
     questions = Questions()
@@ -118,6 +120,7 @@ def test_each_condition_of_a_limit_is_needed() -> None:
     assert questions.wrong() == []
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_rocq_and_the_checker_agree_on_mutations_of_stability_and_limits() -> None:
     questions, verdicts = Questions(), dict[tuple[str, bool], int]()
@@ -156,6 +159,7 @@ DEGENERATE: dict[str, dict[str, Any]] = {
 }  # fmt: skip
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_degenerate_experiments_pass_and_other_ranks_do_not() -> None:
     questions = Questions()
@@ -223,6 +227,7 @@ TWO_INPUTS: dict[str, Any] = {
 }  # fmt: skip
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_inputs_of_degenerate_experiments_and_of_several_inputs() -> None:
     questions = Questions()

@@ -132,6 +132,7 @@ def weakened(condition: str) -> str:
     return f"Set Implicit Arguments. Unset Strict Implicit.\nSection Weakened. {opening}\n{weaker}\nEnd Weakened.\n"
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_each_condition_is_needed() -> None:
     questions = Questions()
@@ -155,6 +156,7 @@ def numbers_changed(terms: Terms) -> Iterator[Terms]:
                         yield replace(terms, definitions=(*terms.definitions[:i], changed, *terms.definitions[i + 1 :]))
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_no_number_can_be_changed() -> None:
     terms = translated(written(make.left_invertible_line(*dense())))
@@ -216,6 +218,7 @@ def told(certificate: Certificate, factors: Random) -> Terms:
     return with_parts(terms, points=points, others=others)
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_a_common_zero_over_an_extension_is_seen() -> None:
     questions = Questions()
@@ -307,6 +310,7 @@ def agreement(questions: Questions, count: int, seed: int) -> tuple[int, int]:
     return verdicts.count(True), verdicts.count(False)
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_rocq_and_the_checker_agree_on_mutations_of_lines() -> None:
     questions = Questions()

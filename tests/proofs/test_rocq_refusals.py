@@ -75,6 +75,8 @@ def tried(theory: Path, names: list[str]) -> None:
     assert compile_file(theory, "Copies.v", copies(names)).split("\n") == [*(f"{MARK}{name}" for name in wanted), ""]
 
 
+@pytest.mark.programs
+@pytest.mark.mutants
 @pytest.mark.timeout(900)
 def test_rocq_refuses_copies_of_a_few_headlines(theory: Path) -> None:
     first_of_each_file = {LOCKED[name].file: name for name in reversed(NAMES)}

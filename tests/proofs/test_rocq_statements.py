@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 from faultspace.proofs.rocq.build import NoRocq, NotProved, compiled_theory
+from faultspace.proofs.rocq.sentences import refused, sentences
 from faultspace.proofs.rocq.sources import sources
-from faultspace.proofs.rocq.statements import VOCABULARY, assumptions, read, sentences
+from faultspace.proofs.rocq.statements import VOCABULARY, read
 
 TINY = {
     "Vocabulary.v": "Section A.\nVariable (a : nat).\nDefinition one := a.+1.\nEnd A.\nRecord pair := Pair { left : nat; right : nat }.\n"
@@ -123,8 +124,8 @@ def test_sentences_are_told_without_comments_and_line_breaks() -> None:
     ],
 )
 def test_what_is_assumed_or_reaches_outside_is_noticed(text: str) -> None:
-    assert assumptions(text)
-    assert not assumptions(f"(* {text} (* nested *) *) Section s.\nHypothesis a : nat.\nEnd s.")
+    assert refused("Other.v", text)
+    assert not refused("Other.v", f"(* {text} (* nested *) *) Section s.\nHypothesis a : nat.\nEnd s.")
 
 
 def _resolved(folder: Path, file: str) -> list[tuple[int, str, str]]:
@@ -134,6 +135,7 @@ def _resolved(folder: Path, file: str) -> list[tuple[int, str, str]]:
     return [(int(m[1]), m[2], m[4].partition(":")[0] if m[3] == "<>" else f"{m[3]}.{m[4]}") for m in found if m]
 
 
+@pytest.mark.programs
 @pytest.mark.timeout(900)
 def test_the_words_of_a_statement_are_those_that_rocq_sees_in_it() -> None:
     """Every name that Rocq resolves to one of ours, in a statement or in a word, is one that the reading reaches."""

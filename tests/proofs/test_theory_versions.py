@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from faultspace.proofs.rocq.sentences import sentences
 from faultspace.proofs.rocq.sources import sources
-from faultspace.proofs.rocq.statements import without_comments
 
 GONE = Path(__file__).with_name("gone_in_mathcomp_2.txt")
 # Names of MathComp 1 that mean something of ours here.
@@ -37,7 +37,7 @@ def old_words(texts: Mapping[str, str], names: set[str]) -> dict[str, list[str]]
     """Returns file -> what it says that MathComp 2 does not have."""
     found = {}
     for file, text in texts.items():
-        bare = without_comments(text)
+        bare = re.sub('"[^"]*"', "", " ".join(sentences(text)))
         said = sorted({*NAME.findall(bare)} & names) + [" ".join(one.split()) for one in ALONE.findall(bare)]
         if said:
             found[file] = said

@@ -1,7 +1,7 @@
 """For each claim of a run that has a refuted reading, its counterexamples, the smallest first: the systems of the certificates, described.
 
 counterexamples   the object: claim -> a list of readings, each with its systems or experiments and the word that tells two of them apart
-by_size           the refuted readings whose certificates are at hand: those as printed come before ours, then the smallest systems
+by_size           the refuted readings whose certificates are at hand: those that are not ours come first, then the smallest systems
 """
 
 from __future__ import annotations

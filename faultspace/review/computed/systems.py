@@ -35,7 +35,7 @@ def systems(certificates: Mapping[str, Mapping[str, Any]], *, on_progress: Progr
 
 
 def described(system: System) -> dict[str, Any]:
-    """Return the matrices of a system, its structure, and its ranks over s by two formulas: that of the indices, and that as printed."""
+    """Return the matrices of a system, its structure, and its ranks over s by two formulas: that of the indices, and that of theorem-2."""
     residual = residual_of(system)
     structure = analyze(residual)
     document = structure.to_json()
@@ -52,7 +52,7 @@ def described(system: System) -> dict[str, Any]:
         "zero_polynomial": polynomial(structure.invariant_zero_polynomial, residual.field),
         "windows": windows,
         "by_indices": [s * r + sum(min(s, index) for index in indices) for s in windows],
-        "as_printed": [residual.n + s * residual.m - document["zeta"] for s in windows] if document["left_invertible"] else None,
+        "by_zeros": [residual.n + s * residual.m - document["zeta"] for s in windows] if document["left_invertible"] else None,
         "fault_space": matrix(structure.fault_space.F.transposed(), structure.fault_space.G.transposed()),
     }
 

@@ -1,9 +1,9 @@
-"""The claims as printed beside the claims as checked, and the graph that they make.
+"""The claims as stated beside the claims as checked, and the graph that they make.
 
 ClaimView, ReadingView, CertificateView, TheoremView    what a page shows of each
 claims        all claims of a run
 theorems      the theorems that readings name, with their statements where the sources have them as locked
-nodes         the graph's nodes: what became of the statement as printed, and on what the weakest reading that stands rests
+nodes         the graph's nodes: what became of the statement, and on what the weakest reading that stands rests
 LEVELS        verdicts from the strongest to the weakest
 """
 
@@ -80,7 +80,8 @@ class ClaimView:
     name: str
     place: str
     reference: Markup
-    printed: str
+    whose: str
+    stated: str
     verdict: str
     expected: str
     meaning: str
@@ -98,9 +99,9 @@ class ClaimView:
     def words(self) -> str:
         """This says in words what the two colours of its node say."""
         statement = {
-            "stands": "the statement as printed stands in a reading",
-            "amended": "the statement as printed falls, a repair stands",
-            "falls": "the statement as printed falls",
+            "stands": "the statement stands in a reading",
+            "amended": "the statement falls in every reading, or a part of it, and a repair stands",
+            "falls": "the statement falls in every reading, or a part of it",
             "open": "the check did not finish",
         }[self.status]
         return f"{statement}; what stands rests on: {self.level}"
@@ -119,7 +120,8 @@ def _claim(claim: Mapping[str, Any], records: Records, keys: Container[str]) -> 
         name=claim["id"],
         place=anchor("claim", claim["id"]),
         reference=cited(claim["reference"], keys),
-        printed=claim["as_printed"],
+        whose=claim["whose"],
+        stated=claim["as_stated"],
         verdict=verdict,
         expected=claim["expected"],
         meaning=meaning(verdict),

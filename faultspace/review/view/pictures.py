@@ -18,14 +18,14 @@ Found = Mapping[str, Any]
 
 
 def of_system(system: Found) -> Markup:
-    """Return the ranks of a system over s beside the formula as printed, which it has where it is left-invertible."""
+    """Return the ranks of a system over s beside the formula of theorem-2, which it has where it is left-invertible."""
     structure = system["structure"]
     series = [
         Series("rank [O_s T_s], exact", structure["window_ranks"], 1),
         Series("s r + sum of min(s, eta_i)", system["by_indices"], 2),
     ]
-    if system["as_printed"] is not None:
-        series.append(Series("n + s m - zeta, of theorem-2", system["as_printed"], 3))
+    if system["by_zeros"] is not None:
+        series.append(Series("n + s m - zeta, of theorem-2", system["by_zeros"], 3))
     return ranks(system["windows"], series[::-1], "Ranks over the window, beside the formulas")
 
 

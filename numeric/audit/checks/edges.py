@@ -10,13 +10,14 @@ free_response     a residual without a fault, its system and its first state
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache, partial
 from typing import Any
 
 import numpy as np
 
+from faultspace.exact.algebra.fields import QQ
 from faultspace.exact.algebra.matrices import Matrix, rank
 from faultspace.exact.structure.signals import hankel, simulate
 from faultspace.exact.system.systems import ResidualSystem
@@ -24,19 +25,20 @@ from faultspace.exact.system.systems import ResidualSystem
 from ...method.signal.reconstruction import reconstruct_fault
 from ...study.rounding.residual_conditioning import fault_signal_error
 from ..making.fault_records import signal_bound
-from ..records import Check, Demand, Function, Measurement, Refused, Severity, Sides
+from ..records import Check, Function, Measurement, Severity, Sides, or_refused
 from ..vectors.exact_comparison import lifted
 from ..vectors.fault_vectors import FaultVector, samples_that_settle
 from ..vectors.rationals import floats, fractions, matrix
 from ..vectors.shipped_vectors import shipped
-from .faults import compared_count, ranks_off, signal_off, spaces_off
+from .faults import ROUNDED, compared_count, ranks_off, signal_off, spaces_off
 from .laws import LOUD, record
+from .manners import copies
+from .refusals import refuses
 
 SAMPLES = 200
 WINDOWS = 4
 FEW = 2  # samples, fewer than states
 BELOW = -1
-ROUNDED = 1e-12  # of orthonormal columns of all of a space, to its unit vectors
 TINY = float(np.finfo(float).tiny)  # of nothing nothing comes, and who divides by a bound may
 # Outputs that see states, which die out, stay, or are zero; all have a fault that does not act: A, F, C, G and the first state.
 FREE: dict[str, tuple[list[list[str]], ...]] = {
@@ -141,21 +143,19 @@ def _no_fault(name: str) -> Iterator[Check]:
     yield Check("window-ranks-no-fault", "window_ranks", name, "window-ranks", effect, Severity.SILENT, ranks)
     parts = tuple(floats(M) for M in (system.A, system.F, system.C, system.G))
     arguments = np.ascontiguousarray(floats(r)), *parts, floats(x0).ravel()
-    yield Check("fault-signal-no-fault", "reconstruct", name, "trajectory-recovered", effect, Severity.SILENT, partial(_silent, arguments))
+    zero = or_refused(partial(_silent, arguments))
+    yield Check("fault-signal-no-fault", "reconstruct", name, "trajectory-recovered", effect, Severity.SILENT, zero)
     if system.p > 1:
         space = arguments[0], parts[0], parts[2], 1, WINDOWS
-        yield _refuses("refuses-no-fault", "fault_space", name, "fault matrices of a record without a fault", space, "problem-11")
+        effect = "fault matrices of a record without a fault"
+        yield refuses("refuses-no-fault", "fault_space", name, effect, partial(copies, space), "problem-11")
 
 
 def _silent(arguments: tuple[Any, ...], function: Function) -> Iterator[Measurement]:
     """Compare with zeros, within what rounding of the free response may leave."""
     r, A, F, C, G, x0 = arguments
     bound = fault_signal_error(r, A, F, C, G, reconstruct_fault(r, A, F, C, G, x0=x0), x0=x0) if r.any() else TINY
-    try:
-        answer = lifted(function(*(one.copy() for one in arguments)), "v", (SAMPLES, 1))
-    except Refused:
-        yield Measurement("refused, as it may be", 0.0, 0.0)
-        return
+    answer = lifted(function(*(one.copy() for one in arguments)), "v", (SAMPLES, 1))
     sides = Sides("signal", fractions(answer), [[0]] * SAMPLES, bound)
     yield Measurement("v", float(np.linalg.norm(floats(answer))), bound, sides)
 
@@ -167,17 +167,13 @@ def _wrong_number(vector: FaultVector, told: int) -> Check:
     """To refuse is right, and so are the columns of the faults that act, from who counts them himself."""
     system, s = vector.system, vector.system.n + 1
 
-    def measure(function: Function) -> Iterator[Measurement]:
-        try:
-            got = function(floats(vector.r), floats(system.A), floats(system.C), told, s)
-        except Refused:
-            yield Measurement("refused, as it may be", 0.0, 0.0)
-            return
+    def compare(function: Function) -> Iterator[Measurement]:
+        got = function(floats(vector.r), floats(system.A), floats(system.C), told, s)
         yield from spaces_off(got, vector.space, vector.space_bounds[s])
 
     effect = "fault matrices that do not explain the data: as many columns as were told"
     name = f"{vector.slug}-{told}-told"
-    return Check("fault-space-wrong-number", "fault_space", name, "problem-11", effect, Severity.SILENT, measure)
+    return Check("fault-space-wrong-number", "fault_space", name, "problem-11", effect, Severity.SILENT, or_refused(compare))
 
 
 def _as_many_as_outputs(vector: FaultVector) -> Check:
@@ -185,19 +181,15 @@ def _as_many_as_outputs(vector: FaultVector) -> Check:
     system, m = vector.system, vector.n_v
     C = system.C.rows(range(m))
     size = system.n + m
-    everything = matrix([[int(i == j) for j in range(size)] for i in range(size)], size)
+    everything = Matrix.identity(QQ, size)
 
-    def measure(function: Function) -> Iterator[Measurement]:
-        try:
-            got = function(floats(vector.r.columns(range(m))), floats(system.A), floats(C), m, system.n + 1)
-        except Refused:
-            yield Measurement("refused, as it may be", 0.0, 0.0)
-            return
+    def compare(function: Function) -> Iterator[Measurement]:
+        got = function(floats(vector.r.columns(range(m))), floats(system.A), floats(C), m, system.n + 1)
         yield from spaces_off(got, everything, ROUNDED)
 
     effect = "true columns left out where the record excludes none"
     name, slug = f"{vector.slug}-two-outputs", "fault-space-as-many-as-outputs"
-    return Check(slug, "fault_space", name, "problem-11", effect, Severity.SILENT, measure)
+    return Check(slug, "fault_space", name, "problem-11", effect, Severity.SILENT, or_refused(compare))
 
 
 def _impossible(vector: FaultVector) -> Iterator[Check]:
@@ -217,12 +209,4 @@ def _impossible(vector: FaultVector) -> Iterator[Check]:
         ("identified_fault_space", "order-below-0", (*of_record, BELOW, noisy.system.m)),
         ("identified_fault_space", "faults-below-0", (*of_record, noisy.system.n, BELOW)),
     ):
-        yield _refuses("refuses-impossible-number", function, name, effect, arguments)
-
-
-def _refuses(slug: str, function: str, vector: str, effect: str, arguments: tuple[Any, ...], claim: str | None = None) -> Check:
-    def measure(called: Callable[..., Any]) -> Iterator[Measurement]:
-        called(*(one.copy() if isinstance(one, np.ndarray) else one for one in arguments))
-        return iter(())
-
-    return Check(slug, function, vector, claim, effect, Severity.SILENT, measure, Demand.MUST_REFUSE)
+        yield refuses("refuses-impossible-number", function, name, effect, partial(copies, arguments))

@@ -11,6 +11,7 @@ shown exactly in the tests.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.signals import simulate
@@ -22,6 +23,7 @@ from ..vectors.inputs import alike_inputs, unexciting_inputs
 from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import IdentificationVector, shipped
 from .faults import compared_count, ranks_off
+from .refusals import refuses
 
 
 def checks() -> Iterator[Check]:
@@ -63,21 +65,17 @@ def _count(vector: UnexcitingVector) -> Check:
 
 
 def _space(vector: UnexcitingVector) -> Check:
-    def measure(function: Function) -> Iterator[Measurement]:
+    def arguments() -> tuple[Any, ...]:
         system = vector.system
-        function(floats(vector.r), floats(system.A), floats(system.C), system.m, system.n + 1)
-        return iter(())
+        return floats(vector.r), floats(system.A), floats(system.C), system.m, system.n + 1
 
     effect = "fault matrices from a fault signal that fits many others"
-    slug = "refuses-unexciting-fault"
-    return Check(slug, "fault_space", vector.slug, "problem-11", effect, Severity.SILENT, measure, Demand.MUST_REFUSE)
+    return refuses("refuses-unexciting-fault", "fault_space", vector.slug, effect, arguments, "problem-11")
 
 
 def _model(name: str, model: IdentificationVector, u: Matrix) -> Check:
-    def measure(function: Function) -> Iterator[Measurement]:
-        function(floats(response(model, u)), floats(u), model.order, model.block_rows)
-        return iter(())
+    def arguments() -> tuple[Any, ...]:
+        return floats(response(model, u)), floats(u), model.order, model.block_rows
 
     effect = "one of many models that fit, without a word"
-    slug = "refuses-unexciting-input"
-    return Check(slug, "identify", f"{model.slug}-{name}", None, effect, Severity.SILENT, measure, Demand.MUST_REFUSE)
+    return refuses("refuses-unexciting-input", "identify", f"{model.slug}-{name}", effect, arguments)

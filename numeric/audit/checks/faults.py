@@ -44,6 +44,7 @@ SUFFIXES: dict[str, tuple[str, tuple[str, ...]]] = {
     "-split-data": (", depending on which half of the record is read", ("first-half", "second-half")),
 }
 MANY = 16  # windows
+ROUNDED = 1e-12  # of orthonormal columns of all of a space, to its unit vectors
 MANY_OF = ("one-fault", "two-faults")  # exact ranks of long windows take a second
 Measure = Callable[[FaultVector, Function], Iterator[Measurement]]
 

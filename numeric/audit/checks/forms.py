@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from ....base.arrays import Array
-from ..records import Broken, Check, Function, Measurement, Refused, Severity
+from ..records import Broken, Check, Function, Measurement, Refused, Severity, or_refused
 from ..vectors.trouble import Trouble, default_troubles
 from .trouble import Compare, questions
 
@@ -83,13 +83,12 @@ def _formed(compare: Compare, form: Callable[[Array], Any], due: bool, function:
     def called(*arguments: Any) -> Any:
         return function(*(form(one) if isinstance(one, np.ndarray) else one for one in arguments))
 
-    try:
-        yield from compare(called)
-    except Refused:
-        if due:
+    def untyped(*arguments: Any) -> Any:
+        try:
+            return called(*arguments)
+        except Broken as failure:
+            if isinstance(failure.__cause__, TypeError):
+                raise Refused(str(failure)) from failure
             raise
-        yield Measurement("refused, as it may be", 0.0, 0.0)
-    except Broken as failure:
-        if due or not isinstance(failure.__cause__, TypeError):
-            raise
-        yield Measurement("refused, as it may be", 0.0, 0.0)
+
+    yield from compare(called) if due else or_refused(compare)(untyped)

@@ -22,7 +22,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from math import log
+from math import inf, log
 from typing import Any
 
 import numpy as np
@@ -36,7 +36,7 @@ from ....base.arrays import Array
 from ....base.processes import family, resident
 from ...method.model.models import StateSpaceModel
 from ...method.space.by_ranks import noise_free_fault_space
-from ..records import Broken, Check, Function, Measurement, Severity
+from ..records import Broken, Check, Function, Measurement, Severity, inside
 from ..vectors.exact_comparison import distances, markov, polynomial_from_the_top
 from ..vectors.fault_vectors import FaultVector
 from ..vectors.rationals import floats, signs
@@ -143,14 +143,14 @@ def checks() -> Iterator[Check]:
 def _grows(slug: str, name: str, effect: str) -> Check:
     def measure(function: Function) -> Iterator[Measurement]:
         if slug.startswith("memory"):
-            less, more = (_memory(function, question(name, length)) for length in LENGTHS)
+            less, more = (_cost(_memory, name, length, function) for length in LENGTHS)
             yield Measurement("exponent of memory", exponent((less, more), LENGTHS, MEMORY_FLOOR), BOUND)
             return
-        small, large = (_time(function, question(name, length)) for length in LENGTHS)
+        small, large = (_cost(_time, name, length, function) for length in LENGTHS)
         got = exponent((small, large), LENGTHS, TIME_FLOOR)
         if got > BOUND:
             lengths = LENGTHS[1], 2 * LENGTHS[1]
-            further = _time(function, question(name, lengths[1]))
+            further = _cost(_time, name, lengths[1], function)
             got = min(got, exponent((large, further), lengths, TIME_FLOOR))
         yield Measurement("exponent of time", got, BOUND)
 
@@ -195,7 +195,7 @@ def stepping(shape: tuple[int, int]) -> Array:
     return np.repeat(STEP * (np.arange(shape[0]) // LASTS % 2)[:, None], shape[1], axis=1).astype(float)
 
 
-def _model_off(kind: str, arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
+def model_off(kind: str, arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
     model = _whole_numbers(kind).model
     assert model is not None
     n, n_u, p = model.order, model.B.ncols, model.C.nrows
@@ -248,7 +248,7 @@ def as_signal(answer: Any, shape: tuple[int, ...]) -> Array:
 
 
 _OFF: dict[str, Callable[[str, tuple[Any, ...], Any], Iterator[Measurement]]] = {
-    "identify": _model_off,
+    "identify": model_off,
     "residual": _residual_off,
     "window_ranks": _ranks_off,
     "fault_dimension": _count_off,
@@ -267,16 +267,21 @@ def _fault(kind: str) -> FaultVector:
     return vector
 
 
-def _memory(function: Function, arguments: tuple[Any, ...]) -> float:
+def _memory(arguments: tuple[Any, ...], function: Function) -> Iterator[Measurement]:
     with footprint() as spent:
         function(*arguments)
-    return spent.memory
+    yield Measurement("bytes", spent.memory, inf)
 
 
-def _time(function: Function, arguments: tuple[Any, ...]) -> float:
+def _time(arguments: tuple[Any, ...], function: Function) -> Iterator[Measurement]:
     with timed() as spent:
         function(*arguments)
-    return spent.seconds
+    yield Measurement("seconds", spent.seconds, inf)
+
+
+def _cost(measure: Callable[..., Iterator[Measurement]], name: str, length: int, function: Function) -> float:
+    (found,) = inside(measure, question(name, length), function)
+    return found.got
 
 
 def question(name: str, length: int, kind: str = FORGETTING) -> tuple[Any, ...]:

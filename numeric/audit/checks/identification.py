@@ -2,7 +2,7 @@
 
 checks      exact recovery; the same with channels in another order, in other units, at other sizes; from parts of the record; from a
             long window
-models_off  the measurements that compare (A, B, C, D) with a vector
+models_off  the measurements that compare (A, B, C, D) with a vector;   as_it_is: in its own units and order of channels
 """
 
 from __future__ import annotations
@@ -98,13 +98,15 @@ def models_off(
     inputs: Sequence[int],
     *units: Sequence[Fraction],
     part: str | None = None,
+    order: int | None = None,
 ) -> Iterator[Measurement]:
     """Yield Markov parameters, transfer function, characteristic polynomial and poles of an answer against the vector's.
 
     Each of them is told by its worst entry. Bounds are those of the whole record or of `part`, and move with the units as the entries do.
+    Of a model of another `order` than the vector's the responses alone are compared: what it adds to them need not be seen.
     """
     n, n_u, p = vector.order, vector.B.ncols, vector.C.nrows
-    A, B, C, D = matrices(answer, n, n_u, p)
+    A, B, C, D = matrices(answer, order or n, n_u, p)
     # The answer in the vector's own units; the order of channels is taken over by the vector.
     found = A, scaled(B, units[1]), _rows_over(C, units[0]), _rows_over(scaled(D, units[1]), units[0])
     gains = [[out / of for of in units[1]] for out in units[0]]  # by which a response in the vector's units becomes that in the question's
@@ -121,6 +123,8 @@ def models_off(
             allowed = np.array(bound, dtype=float)[entries]
             sides = _responses("transfer", got, due, allowed[None], gains, z=z)
             yield _worst(f"transfer function at {z}", distances(got, due)[0], allowed, sides)
+    if order is not None:
+        return
     polynomials = [polynomial_from_the_top(one)[1:] for one in (A, vector.A)]
     off = np.array([abs(float(x - y)) for x, y in zip(*polynomials, strict=True)])
     if vector.asked("characteristic_polynomial", part):
@@ -131,6 +135,12 @@ def models_off(
         places, off = matched(got_poles, due_poles)
         sides = Sides("eigenvalues", [got_poles[j] for j in places], list(due_poles), allowed.tolist())
         yield _worst("eigenvalues", off, allowed, sides)
+
+
+def as_it_is(answer: Any, vector: IdentificationVector, order: int | None = None) -> Iterator[Measurement]:
+    """Yield the measurements of `models_off` in the vector's own units, with the channels in its order."""
+    p, n_u = vector.C.nrows, vector.B.ncols
+    yield from models_off(answer, vector, range(p), range(n_u), [Fraction(1)] * p, [Fraction(1)] * n_u, order=order)
 
 
 def _responses(

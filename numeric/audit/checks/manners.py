@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import astuple, is_dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-from ..records import Check, Function, Measurement, Severity
+from ..records import Check, Function, Measurement, Severity, inside
 from ..vectors.inputs import with_input
 from ..vectors.shipped_vectors import floats, shipped
 
@@ -20,8 +21,11 @@ from ..vectors.shipped_vectors import floats, shipped
 def checks() -> Iterator[Check]:
     """This yields all checks of the module."""
     for function, vector, arguments in questions():
-        yield _deterministic(function, vector, arguments)
-        yield _untouched(function, vector, arguments)
+        for slug, effect, severity, measure in (
+            ("deterministic", "no result can be reproduced", Severity.NUISANCE, _deterministic),
+            ("inputs-untouched", "the caller's data are altered: whatever is computed next is wrong", Severity.SOMETIMES, _untouched),
+        ):
+            yield Check(slug, function, vector, None, effect, severity, partial(inside, measure, arguments))
 
 
 def questions() -> Iterator[tuple[str, str, tuple[Any, ...]]]:
@@ -42,23 +46,16 @@ def copies(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
     return tuple(one.copy() if isinstance(one, np.ndarray) else one for one in arguments)
 
 
-def _deterministic(name: str, vector: str, arguments: tuple[Any, ...]) -> Check:
-    def measure(function: Function) -> Iterator[Measurement]:
-        first, second = (_flat(function(*copies(arguments))) for _ in range(2))
-        yield Measurement("two calls differ", float(not _alike(first, second)), 0.0)
-
-    return Check("deterministic", name, vector, None, "no result can be reproduced", Severity.NUISANCE, measure)
+def _deterministic(arguments: tuple[Any, ...], function: Function) -> Iterator[Measurement]:
+    first, second = (_flat(function(*copies(arguments))) for _ in range(2))
+    yield Measurement("two calls differ", float(not _alike(first, second)), 0.0)
 
 
-def _untouched(name: str, vector: str, arguments: tuple[Any, ...]) -> Check:
-    def measure(function: Function) -> Iterator[Measurement]:
-        given = copies(arguments)
-        function(*given)
-        changed = sum(not np.array_equal(one, other) for one, other in zip(given, arguments, strict=True))
-        yield Measurement("arguments changed", float(changed), 0.0)
-
-    effect = "the caller's data are altered: whatever is computed next is wrong"
-    return Check("inputs-untouched", name, vector, None, effect, Severity.SOMETIMES, measure)
+def _untouched(arguments: tuple[Any, ...], function: Function) -> Iterator[Measurement]:
+    given = copies(arguments)
+    function(*given)
+    changed = sum(not np.array_equal(one, other) for one, other in zip(given, arguments, strict=True))
+    yield Measurement("arguments changed", float(changed), 0.0)
 
 
 def equal(one: Any, other: Any) -> bool:

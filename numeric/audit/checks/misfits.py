@@ -3,7 +3,7 @@
 AXES       function -> the letter of each axis of each array that it takes, in order; equal letters must have equal sizes
 checks     refuses-misfit: one axis a row or a column longer or shorter than the others say, or a matrix turned;
            refuses-no-number: NaN or infinity of either sign in one entry of one argument, in its middle, at its beginning or at its end,
-           and late in a long record
+           and late in a long record; where one sample of a record is none, the others determine the model: it may be given instead
 
 A shape is wrong where a letter stands at another axis, too: the number of samples of a residual alone is nobody's business. Both are asked
 of two faults in three outputs, and of a single state, fault and output, where a program that repeats, cuts or adds axes finds that
@@ -14,19 +14,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
 
 from ....base.arrays import Array
 from ...method.model.models import StateSpaceModel
-from ..records import Check, Demand, Function, Measurement, Severity
+from ..making.model_bounds import bounded
+from ..records import Check, Demand, Function, Measurement, Severity, or_refused
 from ..signatures import ARGUMENTS
 from ..vectors.inputs import with_input
-from ..vectors.rationals import floats, signs
-from ..vectors.shipped_vectors import shipped
-from .growth import LENGTHS, question
+from ..vectors.rationals import floats, matrix, signs
+from ..vectors.shipped_vectors import IdentificationVector, shipped
+from .growth import FORGETTING, LENGTHS, model_off, question
+from .identification import as_it_is
 from .laws import LOUD, record
 
 SEED = 20250602
@@ -47,11 +49,15 @@ Arguments = tuple[Any, ...]
 
 @dataclass(frozen=True)
 class Asked:
-    """A question that fits, which is made to fit no more."""
+    """A question that fits, which is made to fit no more.
+
+    `right` compares an answer with that to the question as it was, where all samples but one still determine it; else None.
+    """
 
     function: str
     vector: str
     arguments: Callable[[], Arguments]
+    right: Callable[[Any], Iterator[Measurement]] | None = None
 
 
 @dataclass(frozen=True)
@@ -80,14 +86,19 @@ def checks() -> Iterator[Check]:
 
 
 def _refuses(slug: str, asked: Asked, name: str, place: int, change: Change, effect: str) -> Check:
+    right = asked.right if change in NO_NUMBERS else None
+
     def measure(function: Function) -> Iterator[Measurement]:
         arguments = list(asked.arguments())
         arguments[place] = change.of(arguments[place])
-        function(*arguments)
-        return iter(())
+        answer = function(*arguments)
+        if right is not None:
+            yield from right(answer)
 
     vector = f"{asked.vector}-{name}-{change.name}"
-    return Check(slug, asked.function, vector, None, effect, Severity.SILENT, measure, Demand.MUST_REFUSE)
+    if right is None:
+        return Check(slug, asked.function, vector, None, effect, Severity.SILENT, measure, Demand.MUST_REFUSE)
+    return Check(slug, asked.function, vector, None, effect, Severity.SILENT, or_refused(measure))
 
 
 def _misfits(function: str, axes: tuple[str, ...], shape: tuple[int, ...]) -> Iterator[Change]:
@@ -147,7 +158,8 @@ def _two_faults() -> Iterator[Asked]:
     r, A, F, C, G = (floats(M) for M in (vector.r, system.A, system.F, system.C, system.G))
     yield from _asked("two-faults", y, u, r, (A, F, C, G), floats(vector.x0).ravel())
     model = next(one for one in shipped("identification") if one.C.nrows > 1 and one.B.ncols > 1)
-    yield Asked("identify", model.slug, lambda: (floats(model.y), floats(model.u), model.order, model.block_rows))
+    right = partial(as_it_is, vector=model)
+    yield Asked("identify", model.slug, lambda: (floats(model.y), floats(model.u), model.order, model.block_rows), right)
     yield Asked("fault_space", "two-faults", lambda: (r.copy(), A, C, vector.n_v, len(A) + 1))
 
 
@@ -160,7 +172,19 @@ def _single_channel() -> Iterator[Asked]:
     y = r + np.asarray(StateSpaceModel(A, F, C, G).simulate(u, np.zeros(1)))
     yield from _asked("single-channel", y, u, r, (A, F, C, G), x0)
     driven = np.asarray(StateSpaceModel(A, F, C, G).simulate(u, x0))
-    yield Asked("identify", "single-channel", lambda: (driven.copy(), u.copy(), 1, 3))
+
+    def right(answer: Any) -> Iterator[Measurement]:
+        yield from as_it_is(answer, _single_model())
+
+    yield Asked("identify", "single-channel", lambda: (driven.copy(), u.copy(), 1, 3), right)
+
+
+@cache
+def _single_model() -> IdentificationVector:
+    """Return the model of the single channel, with the bounds of its record."""
+    A, B, C, D, x0 = (matrix([[entry]], 1) for entry in ("1/2", 1, 2, 1, 1))
+    u = matrix([[int(sign)] for sign in signs(SEED, 200)[:100]], 1)
+    return bounded(IdentificationVector("single-channel", A, B, C, D, x0, u, 3, {}))
 
 
 def _asked(slug: str, y: Array, u: Array, r: Array, system: Arguments, x0: Array) -> Iterator[Asked]:
@@ -174,7 +198,8 @@ def _asked(slug: str, y: Array, u: Array, r: Array, system: Arguments, x0: Array
 def _long() -> Iterator[Asked]:
     """Records of thousands of samples, which nobody reads twice."""
     for function in ("identify", "residual", "window_ranks", "fault_dimension", "fault_space", "reconstruct"):
-        yield Asked(function, f"N{LENGTHS[0]}", partial(question, function, LENGTHS[0]))
+        right = partial(model_off, FORGETTING, ()) if function == "identify" else None
+        yield Asked(function, f"N{LENGTHS[0]}", partial(question, function, LENGTHS[0]), right)
 
 
 def _of_records() -> Iterator[Asked]:

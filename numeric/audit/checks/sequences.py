@@ -13,7 +13,7 @@ from __future__ import annotations
 import gc
 import tracemalloc
 import weakref
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import astuple, is_dataclass, replace
 from functools import cache, partial
 from typing import Any
@@ -26,7 +26,7 @@ from faultspace.exact.system.systems import ResidualSystem
 
 from ..making.fault_records import residual_bound, signal_bound
 from ..making.trouble_vectors import structure_vector
-from ..records import Check, Function, Measurement, Refused, Severity
+from ..records import Check, Function, Measurement, Refused, Severity, inside
 from ..vectors.fault_vectors import FaultVector
 from ..vectors.rationals import floats, fractions, matrix
 from ..vectors.shipped_vectors import StructureVector, shipped
@@ -52,13 +52,13 @@ def checks() -> Iterator[Check]:
         yield _check("same-beginning", name, "two-faults", effect, measure)
     for name, vector, arguments in (*questions(), _silent_model()):
         effect = "an answer that was kept is overwritten, or what is done to it is done to the caller's data"
-        yield _check("earlier-answers-stay", name, vector, effect, partial(_stay, arguments))
+        yield _check("earlier-answers-stay", name, vector, effect, partial(inside, _stay, arguments))
         effect = "memory grows with every question"
-        long = name if name != "structure" and vector != "silent-model" else None  # which have no records, or were asked before
-        yield _check("forgets-the-records", name, vector, effect, partial(_forgets, long, arguments))
+        long = name != "structure" and vector != "silent-model"  # which have no records, or were asked before
+        yield _check("forgets-the-records", name, vector, effect, partial(_forgetting, name if long else None, arguments))
 
 
-def _check(slug: str, function: str, vector: str, effect: str, measure: Callable[[Function], Iterator[Measurement]]) -> Check:
+def _check(slug: str, function: str, vector: str, effect: str, measure: Callable[[Function], Iterable[Measurement]]) -> Check:
     return Check(slug, function, vector, None, effect, Severity.SOMETIMES, measure, nearness=1.0)
 
 
@@ -183,7 +183,12 @@ def _arrays(answer: Any) -> list[Any]:
     return [array for one in answer for array in _arrays(one)] if isinstance(answer, (list, tuple)) else []
 
 
-def _forgets(long: str | None, arguments: tuple[Any, ...], function: Function) -> Iterator[Measurement]:
+def _forgetting(long: str | None, arguments: tuple[Any, ...], function: Function) -> Iterator[Measurement]:
+    yield from inside(_forgets, (arguments, None if long is None else growth.question(long, MANY)), function)
+
+
+def _forgets(asked: tuple[Any, ...], function: Function) -> Iterator[Measurement]:
+    arguments, long = asked
     ghosts = []
     for number in range(ASKED):
         first = arguments[0] * (1 + number)
@@ -193,7 +198,7 @@ def _forgets(long: str | None, arguments: tuple[Any, ...], function: Function) -
     gc.collect()
     yield Measurement("records held", float(sum(ghost() is not None for ghost in ghosts)), float(HELD))
     if long is not None:
-        yield Measurement(f"records' worth of memory kept of {MORE}", _kept(function, *growth.question(long, MANY)), MORE / 2)
+        yield Measurement(f"records' worth of memory kept of {MORE}", _kept(function, *long), MORE / 2)
 
 
 def _kept(function: Function, record: Any, *others: Any) -> float:

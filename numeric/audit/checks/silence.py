@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ..records import Check, Function, Measurement, Refused, Severity
+from ..records import Check, Function, Measurement, Severity, or_refused
 from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import shipped
 from .edges import FREE, free_response
@@ -37,10 +37,7 @@ def _free_response(name: str) -> tuple[Any, ...]:
 
 
 def _none(slug: str, function: str, vector: str, arguments: Callable[[], tuple[Any, ...]]) -> Check:
-    def measure(called: Function) -> Iterator[Measurement]:
-        try:
-            yield compared_count("n_v", called(*arguments()), 0)
-        except Refused:
-            yield Measurement("refused, as it may be", 0.0, 0.0)
+    def compare(called: Function) -> Iterator[Measurement]:
+        yield compared_count("n_v", called(*arguments()), 0)
 
-    return Check(slug, function, vector, "proposition-3", EFFECT, Severity.SILENT, measure)
+    return Check(slug, function, vector, "proposition-3", EFFECT, Severity.SILENT, or_refused(compare))

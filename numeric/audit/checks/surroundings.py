@@ -35,7 +35,7 @@ import numpy as np
 import psutil
 import scipy.linalg
 
-from ..records import Check, Function, Measurement, Refused, Severity
+from ..records import Check, Function, Measurement, Refused, Severity, inside
 from .manners import copies, equal, questions
 
 try:
@@ -69,7 +69,7 @@ def checks() -> Iterator[Check]:
             ("order-of-calls", "the answer depends on what was asked before", _order_of_calls),
             ("same-array-new-data", "an old answer is given for new data in the same array", _same_array),
         ):
-            yield Check(slug, function, vector, None, effect, Severity.SOMETIMES, partial(measure, arguments))
+            yield Check(slug, function, vector, None, effect, Severity.SOMETIMES, partial(inside, measure, arguments))
 
 
 def state() -> dict[str, Any]:

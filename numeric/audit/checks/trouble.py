@@ -7,7 +7,6 @@ questions   the plain questions of a kind, and what compares the answers
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from fractions import Fraction
 from functools import partial
 
 from ..making.all_troubles import troubles
@@ -18,7 +17,7 @@ from ..vectors.shipped_vectors import IdentificationVector
 from ..vectors.trouble import Trouble
 from . import structure
 from .faults import count_off, residual_off, signal_off, space_off, window_ranks_off
-from .identification import RECOVERY, models_off
+from .identification import RECOVERY, as_it_is
 
 Compare = Callable[[Function], Iterator[Measurement]]
 
@@ -82,7 +81,4 @@ def _free_count(slug: str, effect: str, vector: FaultVector) -> Check:
 
 
 def _model_off(vector: IdentificationVector, function: Function) -> Iterator[Measurement]:
-    answer = function(floats(vector.y), floats(vector.u), vector.order, vector.block_rows)
-    ones = [Fraction(1)]
-    p, n_u = vector.C.nrows, vector.B.ncols
-    yield from models_off(answer, vector, range(p), range(n_u), ones * p, ones * n_u)
+    yield from as_it_is(function(floats(vector.y), floats(vector.u), vector.order, vector.block_rows), vector)

@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 
+import numpy as np
+
 from ....base.threads import one_thread
 from ..records import Check, Demand, Function, Measurement
 from . import counts, models, residuals, signals, spaces, structures
@@ -49,6 +51,7 @@ def explained(check: Check, function: Function) -> str:
 def _stands(suspicion: Suspicion, case: Case) -> bool:
     """This tells whether the test bears the suspicion out; an answer may be anything, and what no test can read bears nothing out."""
     try:
-        return suspicion.confirmed(case)
+        with np.errstate(all="ignore"):
+            return suspicion.confirmed(case)
     except Exception:
         return False

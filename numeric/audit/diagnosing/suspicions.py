@@ -46,13 +46,13 @@ class Suspicion:
 
 
 def holds(check: Check, function: Function) -> bool:
-    """This tells whether the check passes; whatever goes wrong, it does not."""
+    """This tells whether the check passes by an answer; whatever goes wrong, it does not, and a refusal bears nothing out."""
     try:
         with np.errstate(all="ignore"):
             measured = list(check.measure(function))
     except Exception:  # an answer changed on suspicion may be anything
         return False
-    return bool(measured) and all(one.ratio <= 1 for one in measured)
+    return any(one.sides for one in measured) and all(one.ratio <= 1 for one in measured)
 
 
 def answer_changed(words: str, change: Callable[..., Any]) -> Suspicion:

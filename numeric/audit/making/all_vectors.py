@@ -33,6 +33,7 @@ from faultspace.exact.limits.moesp import limit
 from faultspace.exact.structure.record import Structure, analyze
 from faultspace.exact.system.systems import FaultySystem, ResidualSystem
 
+from ....base.writing import write_text
 from ...method.model.compression import EPS
 from ...study.rounding.conditioning import SMALL
 from ..vectors.exact_comparison import roots
@@ -45,7 +46,7 @@ from ..vectors.trouble import document as trouble_document
 from .all_troubles import drawn_troubles
 from .drawing import drawn, stable, upward
 from .fault_records import fault_vectors, noisy_vectors, unexciting_vectors
-from .model_bounds import model_bounds
+from .model_bounds import bounded, model_bounds
 
 # -- identification -----------------------------------------------------------------------------------------------------------------
 
@@ -92,7 +93,7 @@ def _bounded(blank: IdentificationVector) -> IdentificationVector:
         for slug, (first, last) in cuts.items()
         if last - first >= needed
     }
-    return replace(blank, bounds=model_bounds(blank, y, u), parts=parts)
+    return replace(bounded(blank), parts=parts)
 
 
 # -- structure ----------------------------------------------------------------------------------------------------------------------
@@ -240,5 +241,5 @@ def main(arguments: Sequence[str] | None = None) -> int:
     texts = {name: written(document) for name, document in {**documents(), **trouble_documents()}.items()}
     out.mkdir(parents=True, exist_ok=True)
     for name, text in texts.items():
-        (out / name).write_text(text, "utf-8")
+        write_text(out / name, text)
     return 0

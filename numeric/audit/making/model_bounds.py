@@ -1,12 +1,14 @@
 """How far rounding may carry a model from the exact one: the largest of four routes, each a worst case to first order.
 
 model_bounds     bounds on what no state basis changes, as the vectors hold them
+bounded          a vector with those of its whole record
 telling          the same, without those that ask for nothing
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -55,6 +57,11 @@ def model_bounds(vector: IdentificationVector, y: Array, u: Array, of_poles: OfP
         "transfer": [None if out else transfers(z) for z, out in zip(POINTS, pole, strict=True)],
         "poles": _upward(np.max(moved_by, axis=0)),
     }
+
+
+def bounded(vector: IdentificationVector) -> IdentificationVector:
+    """Return the vector with the bounds of its whole record."""
+    return replace(vector, bounds=model_bounds(vector, floats(vector.y), floats(vector.u)))
 
 
 def telling(vector: IdentificationVector) -> dict[str, Any]:

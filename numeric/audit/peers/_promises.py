@@ -18,11 +18,13 @@ import numpy as np
 from faultspace.exact.system.systems import ResidualSystem
 
 from ..checks.catalogue import all_checks
+from ..checks.refusals import same_output_twice
 from ..records import Demand
 from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import IdentificationVector, shipped
 from ..vectors.trouble import default_troubles
 
+NO_NUMBERS = ("refuses-nan-output", "refuses-nan-input", "refuses-infinity")  # whose refusal no promise is needed for
 OVER = 1e-10  # what is left of an impulse response that is over: less than the bounds of the checks
 
 
@@ -53,7 +55,7 @@ def not_square(reason: str) -> dict[str, str]:
 
 def _models() -> dict[str, IdentificationVector]:
     troubled = {trouble.kind: trouble.model for trouble in default_troubles() if trouble.model}
-    return {vector.slug: vector for vector in shipped("identification")} | troubled
+    return {vector.slug: vector for vector in (*shipped("identification"), same_output_twice())} | troubled
 
 
 def _systems() -> dict[str, ResidualSystem]:
@@ -62,5 +64,8 @@ def _systems() -> dict[str, ResidualSystem]:
 
 
 def _asked_of(function: str, vectors: Collection[str], reason: str) -> dict[str, str]:
-    asked = (check for check in all_checks() if check.function == function and check.kind == Demand.MUST_HOLD and check.vector in vectors)
-    return {f"{check.slug}/{check.vector}": reason for check in asked}
+    return {
+        f"{check.slug}/{check.vector}": reason
+        for check in all_checks()
+        if check.function == function and check.kind == Demand.MUST_HOLD and check.vector in vectors and check.slug not in NO_NUMBERS
+    }

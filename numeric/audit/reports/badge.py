@@ -11,6 +11,7 @@ from typing import Any
 from xml.sax.saxutils import escape
 
 from ..records import CheckResult, Demand, Status
+from .words import NOT_PROVED
 
 LABEL = "faultspace audit"
 GREEN, RED = "#2a7d2a", "#b3261e"
@@ -45,7 +46,7 @@ def svg(results: Sequence[CheckResult]) -> str:
     )
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{left + right:g}" height="{HEIGHT}" role="img" aria-label="{title}">'
-        f'<title>{title}</title><rect width="{left:g}" height="{HEIGHT}" fill="#555"/>'
+        f'<title>{title}</title><desc>{escape(NOT_PROVED)}</desc><rect width="{left:g}" height="{HEIGHT}" fill="#555"/>'
         f'<rect x="{left:g}" width="{right:g}" height="{HEIGHT}" fill="{_colour(results)}"/>'
         f'<g fill="#fff" font-family="Verdana,DejaVu Sans,sans-serif" font-size="11">{texts}</g></svg>\n'
     )

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from xml.etree import ElementTree
 
 from ..records import CheckResult, Demand, Status, message
+from .words import NOT_PROVED
 
 _NO_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """What XML 1.0 has no way to write: control characters and halves of surrogate pairs, which a program may print before it dies."""
@@ -22,6 +23,8 @@ def document(adapter: str, results: Sequence[CheckResult]) -> str:
     totals = {"tests": str(len(cases)), "failures": count("failure"), "errors": count("error"), "skipped": count("skipped")}
     seconds = f"{sum(one.seconds for one in results):.3f}"
     suite = ElementTree.Element("testsuite", {"name": _legal(f"faultspace audit {adapter}"), **totals, "time": seconds})
+    properties = ElementTree.SubElement(suite, "properties")
+    ElementTree.SubElement(properties, "property", {"name": "not proved", "value": NOT_PROVED})
     suite.extend(cases)
     root = ElementTree.Element("testsuites", {**totals, "time": seconds})
     root.append(suite)

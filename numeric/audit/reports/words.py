@@ -2,6 +2,7 @@
 
 lines_of   the lines below the title of a cause: the answer beside the truth, what is probably wrong, what it does, how to see it again
 beside     the answer beside the truth, on one line
+NOT_PROVED what a count of checks passed does not show
 """
 
 from __future__ import annotations
@@ -13,6 +14,12 @@ from ..records import CheckResult, Status
 from .causes import FEW, Cause
 
 MOST_NUMBERS = 8  # of an answer that is shown whole
+NOT_PROVED = (
+    "It tells what this code answered to these questions on one machine. It does not prove that the code is right on other questions, nor "
+    "that it computed the answers: code that imports the vectors of faultspace can know them, and manners, memory and time are measured "
+    "in the process of the code itself."
+)
+"""What stands beside a badge and in a file of JUnit."""
 
 
 def lines_of(cause: Cause, adapter: str) -> Iterator[str]:

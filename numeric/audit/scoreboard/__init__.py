@@ -1,4 +1,4 @@
-"""Implementation against check: scoreboard.json and the pages made of it.
+"""Implementation against check: board.json and the pages made of it.
 
 boards      the audits; `python -m faultspace.numeric.audit.scoreboard --out numeric/audit` writes all
 records     what the file holds

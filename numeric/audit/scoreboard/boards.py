@@ -3,15 +3,14 @@
     tallies       the results of one audit, summed up by slug and function
     audits        the entries of our reference and of these packages
     merged        new entries in place of old ones
-    main          audits and writes scoreboard.json; what is not installed here keeps the entry that it has there
+    main          audits and writes board.json; what is not installed here keeps the entry that it has there
 
-The records of the file are in `records`; `pages` makes README's table and FINDINGS.md of it.
+The records of the file are in `records`; `pages` makes README's table and FINDINGS.md of it; `reproducers` has the scripts beside them.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from math import inf
@@ -19,12 +18,14 @@ from pathlib import Path
 from typing import Any
 
 from ....base.progress import Progress, evenly, working
+from ....base.writing import write_text
 from ..peers import PEERS
 from ..peers import peer as peer_named
 from ..records import CheckResult, Status, grouped
 from ..running import audit
 from .pages import write_pages
 from .records import Audited, Board, Tally
+from .reproducers import write
 
 
 def tallies(results: Iterable[CheckResult]) -> tuple[Tally, ...]:
@@ -35,7 +36,7 @@ def tallies(results: Iterable[CheckResult]) -> tuple[Tally, ...]:
         worst = failed[0] if failed else max(group, key=lambda one: one.ratio or 0.0)
         numbers = [None if x is None else (str(x) if abs(x) == inf else float(f"{x:.2g}")) for x in (worst.got, worst.bound)]
         said: Any = (worst.vector, worst.verdict, worst.quantity, *numbers, worst.detail)
-        found.append(Tally(worst.slug, worst.function, worst.kind, worst.claim, worst.effect, len(group), len(failed), *said))
+        found.append(Tally(worst.slug, worst.function, worst.kind, worst.effect, len(group), len(failed), *said))
     return tuple(found)
 
 
@@ -45,7 +46,7 @@ def audits(names: Sequence[str], seconds: float, on_progress: Progress, *, ours:
     def audited(name: str, title: str, version: str, needs: str, peer: str | None) -> Audited:
         begun = time.perf_counter()
         found = audit(peer=peer, seconds=seconds, on_progress=lambda check, done, total: on_progress(name, done, total))
-        return Audited(name, title, version, needs, round(time.perf_counter() - begun, 1), tallies(found))
+        return Audited.of(name, title, version, needs, round(time.perf_counter() - begun, 1), tallies(found))
 
     if ours:
         yield audited("faultspace", "our own reference", "this one", "", None)
@@ -63,25 +64,26 @@ def merged(new: Board, old: Board) -> Board:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Audit, write scoreboard.json, and return 0."""
+    """Audit, write board.json and what is made of it, and return 0."""
     parser = argparse.ArgumentParser(prog="python -m faultspace.numeric.audit.scoreboard", description=__doc__.splitlines()[0])
-    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where scoreboard.json, README.md and FINDINGS.md are")
+    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where board.json, README.md and FINDINGS.md are")
     parser.add_argument("--peer", action="append", metavar="NAME", help="only this package, beside our own; may be repeated")
     parser.add_argument("--own", action="store_true", help="our own reference alone, no package")
     parser.add_argument("--others", action="store_true", help="packages alone, and not our own reference")
     parser.add_argument("--timeout", type=float, default=60.0, metavar="SECONDS", help="of one check")
-    parser.add_argument("--pages", action="store_true", help="audit nothing: make the pages from scoreboard.json again")
+    parser.add_argument("--pages", action="store_true", help="audit nothing: make the pages from board.json, and the scripts, again")
     given = parser.parse_args(arguments)
     if given.own and (given.peer or given.others):
         parser.error("--own audits no package, and --peer and --others do")
-    file: Path = given.out / "scoreboard.json"
-    found = Board.from_json(json.loads(file.read_text("utf-8"))) if file.exists() else Board(())
+    file: Path = given.out / "board.json"
+    found = Board.read(file.read_text("utf-8")) if file.exists() else Board(())
     if not given.pages:
         names = [] if given.own else given.peer or [one.name for one in PEERS]
         given.out.mkdir(parents=True, exist_ok=True)
         with working("the audit of our own code") as tell:
             for one in audits(names, given.timeout, evenly(tell), ours=not given.others):
                 found = merged(Board((one,)), found)
-                file.write_text(json.dumps(found.to_json(), indent=1) + "\n", "utf-8")  # what is known is kept, whatever comes then
+                write_text(file, found.text())  # what is known is kept, whatever comes then
     write_pages(found, given.out)
+    write(given.out)
     return 0

@@ -1,129 +1,109 @@
-"""This is what people read of a scoreboard.
+"""This is what people read of a board.
 
-table          Markdown: a row a slug, a column an implementation; passed/asked
-findings       Markdown: each implementation's failures, with version, vector, numbers, and the line and the script that show them again
-found          which findings these are
+table          Markdown: a row a function, a column an implementation; passed/asked
+findings       Markdown: each implementation's failures, in as many words as they need
 write_pages    puts the table between README's two marks and writes FINDINGS.md
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from importlib.resources import files
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from ..records import Demand
+from ....base.writing import write_text
+from ..adapter import FUNCTIONS
+from ..records import Demand, Status
 from .records import Audited, Board, Tally
-from .reproducers import reproducers, write
+from .reproducers import KEPT, path
 
 BEGIN, END = "<!-- scoreboard -->", "<!-- end of scoreboard -->"
+VARIANTS = {"fault_id-threshold": "fault_id"}  # settings of which that alone is told in which they differ
 HEAD = """# What the audit found
 
-Every failure below is that of a function, called through an adapter of [peers/](peers) as its documentation tells, on data whose
-answer is known exactly; made by `python -m faultspace.numeric.audit.scoreboard --out numeric/audit`. A line shows the first vector that
-failed; the command under it repeats that. What is wrong in a script rather than in a function, and what needs more words, stands at the
-end, written by hand.
+Failures of functions of published packages, called through the adapters of [peers/](peers) as their documentation tells, on data whose
+answer is known exactly. `python -m faultspace.numeric.audit.scoreboard --out numeric/audit` makes this page, where they are installed.
+
+Beside the name of a check stands how many of its vectors failed, then the first of them, what was off, and the bound.
+`faultspace audit --peer NAME --check CHECK` repeats a finding; `--reproduce CHECK`, with `--language octave` or `julia` where the
+package is in that, prints a script that shows it without faultspace. For one finding of each cause the script is in
+[reproducers/](reproducers). What no check can see was [found by hand](peers/by_hand.md).
 """
 
 
 def table(board: Board) -> str:
-    """Return a row for each slug and function, in the order of our own audit, which offers every function."""
-    rows = list(dict.fromkeys((one.slug, one.function) for audited in board.audited for one in audited.tallies))
-    names = [audited.name for audited in board.audited]
-    lines = ["| check | function | " + " | ".join(names) + " |", "|---" * (2 + len(names)) + "|"]
-    for slug, function in rows:
-        cells = [_cell(audited, slug, function) for audited in board.audited]
-        lines.append(f"| {slug} | {function} | " + " | ".join(cells) + " |")
-    totals = [f"{_passed(audited)}/{sum(one.asked for one in _musts(audited))}" for audited in board.audited]
-    lines.append("| **passed of all musts** | | " + " | ".join(totals) + " |")
-    lines.append("| version | | " + " | ".join(audited.version for audited in board.audited) + " |")
-    lines.append("| vectors of version | | " + " | ".join(str(audited.vectors) for audited in board.audited) + " |")
-    lines.append("| seconds | | " + " | ".join(f"{audited.seconds:.0f}" for audited in board.audited) + " |")
+    """Return a row for each function, in the order of the adapter."""
+    lines = ["| function | " + " | ".join(one.name for one in board.audited) + " |", "|---" * (1 + len(board.audited)) + "|"]
+    for function in FUNCTIONS:
+        lines.append(f"| {function} | " + " | ".join(_share(one.counts.get(function)) for one in board.audited) + " |")
+    lines.append("| **all** | " + " | ".join(_share(one.total) for one in board.audited) + " |")
+    lines.append("| version | " + " | ".join(one.version for one in board.audited) + " |")
+    lines.append("| vectors of version | " + " | ".join(str(one.vectors) for one in board.audited) + " |")
     return "\n".join(lines)
 
 
-def _musts(audited: Audited) -> list[Tally]:
-    return [one for one in audited.tallies if one.kind != Demand.FREE]
+def _share(count: tuple[int, int] | None) -> str:
+    return "" if count is None else "{}/{}".format(*count)
 
 
-def _passed(audited: Audited) -> int:
-    return sum(one.asked - one.failed for one in _musts(audited))
-
-
-def _cell(audited: Audited, slug: str, function: str) -> str:
-    found = next((one for one in audited.tallies if (one.slug, one.function) == (slug, function)), None)
-    if found is None:
-        return ""
-    if found.kind == Demand.FREE:
-        return "told"
-    return f"**{found.asked - found.failed}/{found.asked}**" if found.failed else f"{found.asked}/{found.asked}"
-
-
-def findings(board: Board, scripts: Mapping[tuple[str, str], str]) -> str:
-    """Return one section for each implementation that fails; `scripts` has the path of the script by implementation and check."""
+def findings(board: Board) -> str:
+    """Return one section for each implementation that fails."""
+    known = {one.name: one for one in board.audited}
     parts = [HEAD]
     for audited in board.audited:
-        failed = [one for one in audited.tallies if one.failed]
-        if not failed:
-            continue
-        parts.append(
-            f"## {audited.name}\n\n{audited.title}; {audited.version}; vectors of version {audited.vectors}. To have it: {audited.needs}.\n"
-        )
-        for first, *others in _alike(failed):
-            count = f"{first.failed} of {first.asked}"
-            parts.append(f"- **{first.slug}** of `{first.function}`: {count}. {_words(first)} Effect: {first.effect}.")
-            if others:
-                parts.append(f"  The same in {', '.join(f'{one.slug} ({one.failed} of {one.asked})' for one in others)}.")
-            path = scripts.get((audited.name, _full_name(first)))
-            link = f"; without faultspace: [{path.rpartition('/')[2]}]({path})" if path else ""
-            parts.append(f"  `faultspace audit --peer {audited.name} --check '{_full_name(first)}'`{link}")
-        parts.append("")
-    by_hand = files("faultspace.numeric.audit").joinpath("peers/by_hand.md").read_text("utf-8")
-    return "\n".join(parts) + "\n" + by_hand
+        if audited.failed:
+            head = f"{audited.title}; {audited.version}; vectors of version {audited.vectors}."
+            told = _of(audited, known.get(VARIANTS.get(audited.name, "")))
+            parts += [f"## {audited.name}\n", head, *_opening(audited), "", *told, ""]
+    return "\n".join(parts).rstrip() + "\n"
 
 
-def found(board: Board) -> list[tuple[str, str]]:
-    """Return (implementation, full name of the check) of each finding, the first of those that are alike."""
-    return [
-        (audited.name, _full_name(first))
-        for audited in board.audited
-        for first, *_ in _alike([one for one in audited.tallies if one.failed])
-    ]
+def _opening(audited: Audited) -> Iterator[str]:
+    scripts = [path(peer, check) for peer, check in KEPT if peer == audited.name]
+    if scripts:
+        yield "Scripts: " + ", ".join(f"[{one.rpartition('/')[2]}]({one})" for one in scripts) + "."
+    if audited.name in VARIANTS:
+        yield f"Told is what differs from {VARIANTS[audited.name]}."
 
 
-def _full_name(one: Tally) -> str:
-    return f"{one.slug}[{one.vector}]-{one.function}"
+def _of(audited: Audited, like: Audited | None) -> Iterator[str]:
+    """Yield the failures of an implementation, without those that another one has alike."""
+    same = {(one.slug, one.function): (one.failed, one.verdict) for one in like.failed} if like else {}
+    told = [one for one in audited.failed if same.get((one.slug, one.function)) != (one.failed, one.verdict)]
+    for function in FUNCTIONS:
+        mine = [one for one in told if one.function == function]
+        for first, *others in _alike([one for one in mine if one.kind != Demand.MUST_REFUSE]):
+            also = f" Also {', '.join(map(_counted, others))}." if others else ""
+            yield f"- `{function}`: **{_counted(first)}**: {_words(first)}.{also}"
+        for verdict, says in ((Status.FAIL, "answers where a refusal is due"), (Status.BROKEN, "breaks where a refusal is due")):
+            of = [one for one in mine if one.kind == Demand.MUST_REFUSE and one.verdict == verdict]
+            if of:
+                yield f"- `{function}` {says}: {', '.join(map(_counted, of))}."
+
+
+def _counted(one: Tally) -> str:
+    return f"{one.slug} {one.failed}/{one.asked}"
 
 
 def _alike(failed: Sequence[Tally]) -> list[list[Tally]]:
     """Return failures of one function that begin at the same vector with the same quantity: one error seen in several views."""
     groups: dict[tuple[object, ...], list[Tally]] = {}
     for one in failed:
-        key = (one.function, one.vector, one.verdict, one.quantity, one.quantity or one.detail)
-        groups.setdefault(key if one.kind != Demand.MUST_REFUSE else (one.slug, one.function), []).append(one)
+        groups.setdefault((one.vector, one.verdict, one.quantity, one.quantity or one.detail), []).append(one)
     return list(groups.values())
 
 
 def _words(one: Tally) -> str:
-    detail = f" {_short(one.detail)}." if one.detail else ""
-    if one.got is None:
-        return f"{one.verdict}:{detail}"
-    return f"{one.verdict}: {one.quantity}: got {one.got}, bound {one.bound}.{detail}"
-
-
-def _short(text: str) -> str:
-    """The text becomes one line of at most 200 characters."""
-    line = " ".join(text.split()).rstrip(".")
-    return line if len(line) <= 200 else line[:197] + "..."
+    if one.verdict == Status.FAIL and one.got is not None:
+        return f"{one.vector}, {one.quantity} off by {one.got}, bound {one.bound}"
+    line = " ".join(one.detail.split()).rstrip(".")
+    return f"{one.vector}, {one.verdict}: {line if len(line) <= 90 else line[:87] + '...'}"
 
 
 def write_pages(board: Board, folder: Path) -> None:
-    """Write README.md between its marks, where it has them, FINDINGS.md, and a script for each finding."""
+    """Write README.md between its marks, where it has them, and FINDINGS.md."""
     readme = folder / "README.md"
     if readme.exists() and BEGIN in (text := readme.read_text("utf-8")):
         before, _, rest = text.partition(BEGIN)
         _, _, after = rest.partition(END)
-        readme.write_text(f"{before}{BEGIN}\n{table(board)}\n{END}{after}", "utf-8")
-    scripts = list(reproducers(found(board)))
-    write(folder, scripts)
-    (folder / "FINDINGS.md").write_text(findings(board, {(one.peer, one.check): one.path for one in scripts}), "utf-8")
+        write_text(readme, f"{before}{BEGIN}\n{table(board)}\n{END}{after}")
+    write_text(folder / "FINDINGS.md", findings(board))

@@ -1,58 +1,54 @@
-"""A script for each finding, which shows it without faultspace.
+"""Scripts that show a finding without faultspace: for one finding of each cause that is worth telling upstream.
 
-Reproducer     whose finding it is, of which check, where the script stands, its text
-reproducers    those of a board
-write          into the folder of the pages; scripts of findings that are no more go
+KEPT      (package, full name of a check) of those that stand in the tree; `faultspace audit --peer NAME --reproduce CHECK` prints any
+path      where a script stands, beside the pages
+text      what is in it, in the language of the package
+write     all of them into a folder
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
-from ....base.errors import InvalidData
+from ....base.writing import write_text
 from ..adapter import FUNCTIONS
-from ..peers import PEERS
+from ..peers import peer
 from ..upstream.reproducing import script
 
-FOLDER = "reproducers"
 ENDINGS = {"Python": "py", "Octave": "m", "Julia": "jl"}
+KEPT = (
+    ("ctrlsys", "exact-recovery[n2-u1-p1]-identify"),
+    ("ctrlsys", "refuses-shapes[two-faults]-structure"),
+    ("ctrlsys", "refuses-no-number[two-faults-F-nan]-structure"),
+    ("nfoursid", "memory-grows-with-N[N3000-N12000]-identify"),
+    ("nfoursid", "other-units[n2-u1-p1]-identify"),
+    ("nfoursid", "refuses-short-data[n3-u2-p2]-identify"),
+    ("sippy_unipi", "right-on-long-records[N12000]-identify"),
+    ("sippy_unipi-D", "form-float32[whole-numbers]-identify"),
+    ("python-control", "refuses-unexciting-input[n2-u1-p1-constant]-identify"),
+    ("python-control-alone", "finite-zeros[orders-one-and-three]-structure"),
+    ("slycot", "normal-rank[six-by-six]-structure"),
+    ("octave-control", "refuses-nan-model[two-faults]-structure"),
+    ("matrix-pencils", "finite-zeros[zeros-outside]-structure"),
+    ("fault_id", "fault-space-1e6[one-fault]-fault_space"),
+    ("fault_id-threshold", "window-ranks-1e-12[one-fault]-window_ranks"),
+)
 
 
-@dataclass(frozen=True)
-class Reproducer:
-    """`path` is relative to the folder of the pages."""
-
-    peer: str
-    check: str
-    path: str
-    text: str
+def path(name: str, check: str) -> str:
+    """Return the path of the script of a package's check, below the folder of the pages."""
+    return f"reproducers/{name}/{re.sub('[^A-Za-z0-9_]+', '_', check).strip('_')}.{ENDINGS[peer(name).language]}"
 
 
-def reproducers(found: Sequence[tuple[str, str]]) -> Iterator[Reproducer]:
-    """Yield one for each (peer, full name of a check) that there is a script of, in the language of the package. A check
-    that is no more, as one of a board made by other vectors, has none, nor has one whose costs are measured in another language."""
-    known = {one.name: one for one in PEERS}
-    for name, check in found:
-        if name not in known:
-            continue
-        language = known[name].language
-        try:
-            text = script(check, FUNCTIONS, language.lower(), peer=name)
-        except InvalidData:
-            continue
-        file = re.sub(r"[^A-Za-z0-9_]+", "_", check).strip("_")
-        yield Reproducer(name, check, f"{FOLDER}/{name}/{file}.{ENDINGS[language]}", text)
+def text(name: str, check: str) -> str:
+    """Return the script of a package's check."""
+    return script(check, FUNCTIONS, peer(name).language.lower(), peer=name)
 
 
-def write(folder: Path, scripts: Sequence[Reproducer]) -> None:
-    """Write the scripts below the folder, and take away others that stand there."""
-    wanted = {folder / one.path for one in scripts}
-    for file in sorted((folder / FOLDER).glob("*/*.*")):
-        if file not in wanted:
-            file.unlink()
-    for one in scripts:
-        (folder / one.path).parent.mkdir(parents=True, exist_ok=True)
-        (folder / one.path).write_text(one.text, "utf-8")
+def write(folder: Path) -> None:
+    """Write the scripts of KEPT below the folder of the pages."""
+    for name, check in KEPT:
+        file = folder / path(name, check)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        write_text(file, text(name, check))

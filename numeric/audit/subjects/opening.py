@@ -2,7 +2,7 @@
 
 Auditee      has `functions`, what it offers, `perform`, which gives the result of one check, and `explain`, which says what is probably
              wrong where it fails; neither raises for what the subject does
-InProcess    an object whose functions run in this process, without limits
+InProcess    an object whose functions run in this process, without limits: it could look at the answers
 opened       the subject that the arguments of `audit` name, closed at the end
 label        how `faultspace audit` is told of it
 REFERENCE    our own numeric branch, by its name
@@ -24,7 +24,6 @@ from ..peers import VARIABLES
 from ..peers import peer as peer_named
 from ..records import Check, CheckResult, perform
 from ..signatures import fitting
-from ..vectors.trouble import SEED
 from .isolation import Isolated
 from .subprocess_adapter import Exec
 
@@ -65,7 +64,7 @@ class InProcess:
 
 
 @contextmanager
-def opened(adapter: object, command: Command | None, peer: str | None, limits: Limits, seed: int = SEED) -> Iterator[Auditee]:
+def opened(adapter: object, command: Command | None, peer: str | None, limits: Limits) -> Iterator[Auditee]:
     """At most one of the three is given; without any it is our own reference. Raises InvalidData for more, and where nothing answers."""
     if sum(one is not None for one in (adapter, command, peer)) > 1:
         raise InvalidData("got more than one of an adapter, command= and peer=, expected one of them")
@@ -81,7 +80,7 @@ def opened(adapter: object, command: Command | None, peer: str | None, limits: L
         with Exec(command, limits) as program:
             yield InProcess(program)
     elif adapter is None or isinstance(adapter, str):
-        with Isolated(adapter or REFERENCE, limits, seed) as worker:
+        with Isolated(adapter or REFERENCE, limits) as worker:
             yield worker
     else:
         yield InProcess(adapter)

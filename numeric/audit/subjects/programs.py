@@ -62,13 +62,15 @@ class Program:
         """Whether it is there, so that the next question does not start it."""
         return self._process is not None and self._process.poll() is None
 
-    def ask(self, line: bytes, seconds: float | None = None) -> bytes:
-        """Return the line that answers `line` within so many seconds (None: the limit); neither ends with a line feed. Raises Broken."""
+    def ask(self, line: bytes, seconds: float | None = None, left: float | None = None) -> bytes:
+        """Return the line that answers `line` within so many seconds (None: the limit), of which so many are left (None: all); neither
+        ends with a line feed. Raises Broken."""
         if not self.running:
             self.close()
             self._start()
         try:
-            return self._exchange(line + b"\n", self.limits.seconds if seconds is None else seconds)
+            allowed = self.limits.seconds if seconds is None else seconds
+            return self._exchange(line + b"\n", allowed, allowed if left is None else left)
         except BaseException:
             self.close()
             raise
@@ -110,12 +112,12 @@ class Program:
             assert stream is not None
             os.set_blocking(stream.fileno(), False)
 
-    def _exchange(self, line: bytes, seconds: float) -> bytes:
+    def _exchange(self, line: bytes, seconds: float, left: float) -> bytes:
         """Writes and reads at once, so that neither side waits for the other with a full pipe."""
         process = self._process
         assert process is not None and process.stdin is not None and process.stdout is not None
-        allow_cpu(process.pid, seconds)
-        deadline, glance = time.monotonic() + seconds, time.monotonic() + GLANCE
+        allow_cpu(process.pid, left)
+        deadline, glance = time.monotonic() + left, time.monotonic() + GLANCE
         with selectors.DefaultSelector() as selector:
             selector.register(process.stdout, selectors.EVENT_READ)
             if self._pending or selector.select(0):

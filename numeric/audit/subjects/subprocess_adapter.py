@@ -21,20 +21,10 @@ from ....base.errors import InvalidData, shorten
 from ....base.processes import STANDARD, Limits
 from ..adapter import FUNCTIONS, ZeroStructure
 from ..records import Broken, Refused
+from ..signatures import ARGUMENTS
 from .programs import LOADING, Program
 
 OFFERS = {"call": "functions"}
-ARGUMENTS = {
-    "identify": ("y", "u", "order", "block_rows"),
-    "residual": ("y", "u", "A", "B", "C", "D"),
-    "window_ranks": ("r", "windows"),
-    "fault_dimension": ("r",),
-    "fault_space": ("r", "A", "C", "n_v", "block_rows"),
-    "reconstruct": ("r", "A", "F", "C", "G", "x0"),
-    "structure": ("A", "F", "C", "G"),
-    "count_faults": ("y", "u", "order"),
-    "identified_fault_space": ("y", "u", "order", "n_v"),
-}
 ANSWERS = {
     "identify": ("A", "B", "C", "D"),
     "residual": ("r",),

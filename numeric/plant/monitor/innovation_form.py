@@ -27,6 +27,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.linalg
+from numpy.typing import NDArray
 
 from ....base.arrays import Array
 from ....base.errors import InvalidData
@@ -41,6 +42,7 @@ FADED = 1e-2  # what may be left of the first state where the errors of an obser
 ELSEWHERE = 10.0  # times farther than on the healthy record may the plant be where its state is not known
 WILD = 1e3  # deviations at which the error of a forecast is cut off, so that a wild number is forgotten; an input of WILD^2 is missing
 ROUNDING = 1e-10  # deviation of an error, in that of its output, below which there is no noise
+GROWN = float(np.finfo(float).eps ** -0.5)  # times what a state is at the start: rounding in it is half of all digits below that
 KNOWN = 1e-10  # variance of the states, in units of the channels, below which they count as known
 
 
@@ -305,9 +307,13 @@ class Predictor:
     """This is the Kalman filter of a form [AM79]: it gives the innovations of samples y (p,) and u (n_u,), in the units of the data.
 
     The state is known up to a covariance P, at first that of the healthy record ten times as wide. An innovation then has the covariance
-    S + C P C', and the gain is the optimal one; a missing output (NaN) is left out of both. P fades as samples come, and where it is
-    nothing the filter is the predictor x+ = A x + B u + K e. `state` (d,) and `spread`, P or None where the state is known, are all that it
-    remembers.
+    S + C P C', and the gain is the optimal one; an output that is missing (NaN) or wild is left out of it. P fades as samples come, and
+    where it is nothing the filter is the predictor x+ = A x + B u + K e. `state` (d,) and `root`, the root of P (d, any) or None where the
+    state is known, are all that it remembers.
+
+    Over a gap an unstable mode of modulus a makes P grow by a^2 a sample. Its root is what is held, and one orthogonal triangle takes the
+    step [AM79], so that no difference of large numbers is formed and rounding costs as many digits as the root has grown by. Where half of
+    all digits are gone (GROWN) the state is unknown as at the start, and `begun_anew` says so of the last step.
     """
 
     def __init__(self, form: Form) -> None:
@@ -315,12 +321,17 @@ class Predictor:
         self._root = np.linalg.cholesky(form.covariance)
         self._inverse = scipy.linalg.solve_triangular(self._root, np.eye(form.p), lower=True)
         self._sizes = np.sqrt(np.diag(form.covariance))
+        self._wild = WILD * self._sizes
+        values, vectors = np.linalg.eigh(ELSEWHERE**2 * form.unknown)
+        self._start = vectors * np.sqrt(np.maximum(values, 0.0))
+        self._most = GROWN * np.maximum(_lengths(self._start), _lengths(form.K @ self._root))
+        self.begun_anew = False
         self.restart()
 
     def restart(self) -> None:
         """Forget the state."""
         self.state = np.zeros(len(self.form.A))
-        self.spread: Array | None = ELSEWHERE**2 * self.form.unknown
+        self.root: Array | None = self._start
 
     def step(self, y: Array, u: Array) -> tuple[Array, Array] | None:
         """Return the innovation (p,) of one sample, uncorrelated and of deviation one, and output by output over its deviation.
@@ -329,37 +340,51 @@ class Predictor:
         can be judged then, and the state is unknown again.
         """
         form, units = self.form, self.form.units
-        pushed, there = (u - units.input_centre) / units.input_scale, np.isfinite(y)
-        if not np.all(np.abs(pushed) < WILD**2):  # NaN is not, either
-            self.restart()
-            return None
-        forecast = form.C @ self.state + form.D @ pushed + form.level
-        with np.errstate(over="ignore"):
+        self.begun_anew = False
+        with np.errstate(over="ignore", invalid="ignore"):
+            pushed, there = (u - units.input_centre) / units.input_scale, np.isfinite(y)
+            if not (np.abs(pushed) < WILD**2).all():  # NaN is not, either
+                self.restart()
+                return None
+            forecast = form.C @ self.state + form.D @ pushed + form.level
             e = np.where(there, (np.where(there, y, 0.0) - units.centre) / units.scale - forecast, 0.0)
-        after = form.A @ self.state + form.B @ pushed + form.push
-        if self.spread is None and np.all(there):
-            e = np.clip(e, -WILD * self._sizes, WILD * self._sizes)
-            self.state = after + form.K @ e
-            return self._inverse @ e, e / self._sizes
-        return self._filtered(e, there, after)
+            after = form.A @ self.state + form.B @ pushed + form.push
+            if self.root is None and there.all() and (np.abs(e) <= self._wild).all():
+                self.state = after + form.K @ e
+                return self._inverse @ e, e / self._sizes
+            return self._filtered(e, there, after)
 
-    def _filtered(self, e: Array, there: Array, after: Array) -> tuple[Array, Array] | None:
-        """Take the step with a state that is not known, or with outputs missing; `after` is the next state by the forecast alone."""
-        form, seen = self.form, np.flatnonzero(there)
-        spread = np.zeros_like(form.A) if self.spread is None else self.spread
-        S = form.covariance + form.C @ spread @ form.C.T
-        cross = form.A @ spread @ form.C.T + form.K @ form.covariance
-        left = form.A @ spread @ form.A.T + form.K @ form.covariance @ form.K.T
-        sizes, expected = np.sqrt(np.diag(S)), np.zeros(form.p)
+    def _filtered(self, e: Array, there: NDArray[np.bool_], after: Array) -> tuple[Array, Array] | None:
+        """Take the step with a state that is not known, or with outputs missing or wild; `after` is the next one by the forecast alone."""
+        form, noise = self.form, self._root
+        root = np.zeros((len(form.A), 0)) if self.root is None else self.root
+        outputs = np.hstack([noise, form.C @ root])  # times its transpose it is the covariance of e
+        sizes = _lengths(outputs)
+        # What is wild tells nothing of the state: an unstable model that follows it, cut off as it is, never comes back.
+        used = there & (np.abs(e) <= WILD * sizes)
         e = np.clip(e, -WILD * sizes, WILD * sizes)
-        if len(seen):
-            weighted = np.linalg.solve(S[np.ix_(seen, seen)], np.column_stack([e[seen], cross[:, seen].T]))
-            expected = S[:, seen] @ weighted[:, 0]
-            after = after + cross[:, seen] @ weighted[:, 0]
-            left = left - cross[:, seen] @ weighted[:, 1:]
-        self.state = after
-        self.spread = None if np.abs(left).max(initial=0.0) < KNOWN else (left + left.T) / 2
-        if not len(seen):
-            return None
-        z = scipy.linalg.solve_triangular(np.linalg.cholesky(S), expected, lower=True)
-        return np.asarray(z), e / sizes
+        order, seen, p = np.argsort(~used, kind="stable"), int(np.sum(used)), form.p
+        triangle = _lower(np.vstack([outputs[order], np.hstack([form.K @ noise, form.A @ root])]))
+        white = scipy.linalg.solve_triangular(triangle[:seen, :seen], e[used], lower=True)
+        expected = np.where(there, e, 0.0)
+        expected[~there] = (triangle[:p, :seen] @ white)[~there[order]]
+        self.state, left = after + triangle[p:, :seen] @ white, triangle[p:, seen:]
+        reach = _lengths(left)
+        self.root = None if np.max(reach, initial=0.0) ** 2 < KNOWN else left
+        if not (np.all(reach <= self._most) and np.all(np.isfinite(self.state))):  # NaN is not, either
+            self.begun_anew = True
+            self.restart()
+        if seen < p:  # else the triangle is that of all outputs in their order
+            white = scipy.linalg.solve_triangular(_lower(outputs), expected, lower=True)
+        return (np.asarray(white), e / sizes) if np.any(there) else None
+
+
+def _lower(wide: Array) -> Array:
+    """Return the lower triangle T with T T' = wide wide' and no negative number on its diagonal."""
+    upper = np.asarray(np.linalg.qr(wide.T, mode="r"))
+    return np.asarray((upper * np.where(np.diag(upper) < 0, -1.0, 1.0)[:, None]).T)
+
+
+def _lengths(rows: Array) -> Array:
+    """Return the lengths of the rows."""
+    return np.asarray(np.sqrt(np.sum(rows * rows, axis=1)))

@@ -19,17 +19,19 @@ import numpy as np
 
 from ....base.arrays import Array
 from ....base.errors import InvalidData, shorten
+from ....base.progress import Progress, silent
 from ....base.sheets import counted
 from ...data.plain import plain
 from ...data.validation import whole
 from ...method.model.models import FORMAT as MODEL_FORMAT
 from ...method.model.models import StateSpaceModel
 from .innovation_form import Fitted, Form, Units, innovation_form
-from .statistics import TESTS, Settings
+from .statistics import TESTS, Settings, checked
 from .thresholds import Calibration, calibrated, largest_of_blocks
 
 FORMAT = "faultspace-monitor/1"
 MONITORING = "monitoring"  # the key of model.json under which it stands
+LARGEST = float(np.sqrt(np.finfo(float).max))
 MARGIN = 0.1  # of the range of an input, by which it may leave it
 
 
@@ -52,9 +54,9 @@ class Learned:
     inputs: tuple[str, ...]
     notes: tuple[str, ...]
 
-    def calibration(self, level: float) -> Calibration:
+    def calibration(self, level: float, heard: Progress = silent) -> Calibration:
         """Return the thresholds for `level` false alarms a sample, all tests together."""
-        return calibrated(self.settings, level, self.maxima, self.samples)
+        return calibrated(self.settings, level, self.maxima, self.samples, heard)
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict; null stands for infinite. Floats come back bit for bit."""
@@ -94,7 +96,7 @@ class Learned:
         units, shift = _part(document, "units"), array(document, "shift", ())
         if not shift > 0:
             raise InvalidData(f"shift: got {shorten(document['shift'])}, expected a positive number")
-        settings = Settings(p, _count(document, "window", 2), float(shift))
+        settings = checked(Settings(p, _count(document, "window", 2), float(shift)))
         inside = _part(document, "form")
         states = inside.get("push")
         d = len(states) if isinstance(states, list) else 0
@@ -115,13 +117,17 @@ class Learned:
             raise InvalidData("form: got a covariance that is none, expected symmetric ones without negative variances")
         blocks = document.get("maxima")
         maxima = array(document, "maxima", (len(blocks) if isinstance(blocks, list) else 0, len(TESTS)))
-        if not len(maxima):
-            raise InvalidData("maxima: got no block of healthy samples, expected one at least")
+        samples = _count(document, "samples", 1)
+        if not len(maxima) or len(maxima) != samples // settings.memory:
+            raise InvalidData(
+                f"maxima: got {counted(len(maxima), 'block')} of {settings.memory} samples in {shorten(samples)} healthy samples, expected "
+                "as many as there are, and one at least"
+            )
         return cls(
             form,
             settings,
             maxima,
-            _count(document, "samples", 1),
+            samples,
             array(document, "least", (n_u,), missing=-np.inf),
             array(document, "greatest", (n_u,), missing=np.inf),
             outputs,
@@ -143,6 +149,7 @@ def learn(
     names: tuple[tuple[str, ...], tuple[str, ...]] | None = None,
     with_inputs: bool = True,
     notes: tuple[str, ...] = (),
+    heard: Progress = silent,
 ) -> Learned:
     """Return what the healthy y (N, p) and u (N, n_u) teach, the channels called by `names` of outputs and inputs.
 
@@ -155,7 +162,7 @@ def learn(
             f"{counted(plant.p, 'output')} and {counted(plant.n_u, 'input')}: give the channels of the model, in its order"
         )
     fitted = innovation_form(plant, y, u, with_inputs=with_inputs) if fitted is None else fitted
-    maxima = largest_of_blocks(settings, fitted.errors, fitted.sizes)
+    maxima = largest_of_blocks(settings, fitted.errors, fitted.sizes, heard)
     beyond = np.full(plant.n_u, np.inf)
     least, greatest = _bounds(u) if with_inputs else (-beyond, beyond)
     own = (tuple(f"y{i + 1}" for i in range(plant.p)), tuple(f"u{i + 1}" for i in range(plant.n_u)))
@@ -174,6 +181,8 @@ def array(document: Mapping[str, Any], key: str, shape: tuple[int, ...], *, miss
     found = found.reshape(shape) if found.size == 0 and 0 in shape else found
     if found.shape != shape:
         raise InvalidData(f"{key}: got shape {found.shape}, expected {shape}")
+    if np.any(np.abs(found) > LARGEST):
+        raise InvalidData(f"{key}: got {np.abs(found).max():g}, expected numbers whose squares a float holds")
     if missing is not None:
         found = np.where(np.isnan(found), missing, found)
     elif not np.all(np.isfinite(found)):

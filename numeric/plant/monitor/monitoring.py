@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from ....base.arrays import Array
 from ....base.errors import InvalidData, shorten
+from ....base.progress import Progress, silent
 from ....base.sheets import Shown, counted
 from ....base.threads import one_thread
 from ...data.plain import plain
@@ -28,7 +29,7 @@ from .alarms import MISSING, Alarm, Watched
 from .innovation_form import Predictor, innovation_form
 from .learned import MONITORING, Learned, array, learn
 from .saving import read, write
-from .statistics import MEMORY, TESTS, Bank, Settings, roots
+from .statistics import MEMORY, TESTS, Bank, Settings, checked, roots
 from .thresholds import LEAST_BLOCKS
 
 SIMULATED = 5_000  # samples of the disturbance of a reduced model, where no healthy record is given
@@ -54,12 +55,14 @@ class Monitor(Shown):
     from count as healthy. `level` is the expected number of false alarms a sample, all tests
     together, so that 1 / level is the mean time between them; `window` the samples of the chi-square test; `shift` the change of mean
     that the CUSUM is made for, in deviations of an innovation. 10 / level healthy samples are needed for such a rate to be seen in the
-    record; `notes` say where there are fewer and what follows. Look at `notes` first, then at `calibration`.
+    record; `notes` say where there are fewer and what follows. Look at `notes` first, then at `calibration`. `on_progress(stage, done,
+    total)` hears how far the calibration is, which takes long with many outputs or a long window.
 
     The tests are residual (one sample of one output), chi-square (a window), cusum (a mean that moved) and hankel (the largest root of
     the moments of Hankel columns, with their rank gap). An alarm begins where a statistic crosses its threshold, and ends when it has
     been below it for a window of samples. A sample costs the same whatever came before. A missing output is NaN: the others are judged
-    without it. A change of the operating point that the linear model does not describe is an alarm like any other, which names the inputs
+    without it; `begun_anew` counts the gaps after which the state of an unstable model was as unknown as at the start. A change of the
+    operating point that the linear model does not describe is an alarm like any other, which names the inputs
     that are beyond what the healthy record has shown; `restart` forgets the state, and a new operating point for good needs a new healthy
     record. `save` and `load` carry a monitor over a break. Raises InvalidData for records and models that do not fit, are too short or have
     no noise, and InvalidInput for files that cannot be read.
@@ -88,24 +91,27 @@ class Monitor(Shown):
         shift: float = SHIFT,
         inputs: str | Sequence[str] | None = None,
         outputs: str | Sequence[str] | None = None,
+        on_progress: Progress = silent,
     ) -> None:
         with one_thread():
             plant, rate = _plant(model), _rate(level)
             if not (isinstance(shift, float | int | np.floating) and 0 < shift < np.inf):
                 raise InvalidData(f"shift: got {shorten(shift)}; needed a positive change of mean, in deviations: try 1.0")
             window = whole(window, "window", 2, "state how many samples the chi-square test sums over, 20 for example")
-            settings = Settings(plant.p, window, float(shift))
-            self._begin(_learned(model, plant, settings, _given(plant, y, u, inputs, outputs)), rate)
+            settings = checked(Settings(plant.p, window, float(shift)))
+            self._begin(_learned(model, plant, settings, _given(plant, y, u, inputs, outputs), on_progress), rate, on_progress)
 
-    def _begin(self, learned: Learned, level: float) -> None:
+    def _begin(self, learned: Learned, level: float, heard: Progress) -> None:
         """Take what was learned, and begin to count samples."""
         self.outputs, self.inputs, self._settings, self._learned = learned.outputs, learned.inputs, learned.settings, learned
-        self.calibration = learned.calibration(level)
+        self.calibration = learned.calibration(level, heard)
         self._form, self._predictor = learned.form, Predictor(learned.form)
         self._bounds = (learned.least, learned.greatest)
         self._root = np.linalg.cholesky(learned.form.covariance)
         self.notes = learned.notes + self.calibration.notes
         self.samples, self.untested, self.missing = 0, 0, np.zeros(learned.settings.p, int)
+        self.mark: Mapping[str, Any] | None = None  # where in a file its samples end, for whoever reads one
+        self.begun_anew, self._last_anew = 0, 0  # times that the predictor did, and the sample behind which it last did
         self.alarms = dict.fromkeys((*TESTS, MISSING), 0)
         self.restart()
 
@@ -115,27 +121,30 @@ class Monitor(Shown):
 
         A saved monitor of that name is replaced, whole or not at all. Raises InvalidInput where the file cannot be written, or is another.
         """
-        write(path, self._learned.to_json() | {"level": self.calibration.level, "state": self._state()})
+        stream = {} if self.mark is None else {"stream": self.mark}
+        write(path, self._learned.to_json() | {"level": self.calibration.level, "state": self._state()} | stream)
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str], *, level: float | None = None) -> Self:
+    def load(cls, path: str | os.PathLike[str], *, level: float | None = None, on_progress: Progress = silent) -> Self:
         """Return the monitor of `save`, which goes on where it was; or a new one by the model of `identify`: its model.json, or its folder.
 
         `level` is that of the file unless stated, and 1e-4 where the file states none. Raises InvalidInput for a file that cannot be read,
         and InvalidData, which says what is wrong, for one without what a monitor needs.
         """
-        return cls.from_json(read(path), level=level)
+        return cls.from_json(read(path), level=level, on_progress=on_progress)
 
     @classmethod
     @one_thread()
-    def from_json(cls, document: Mapping[str, Any], *, level: float | None = None) -> Self:
+    def from_json(cls, document: Mapping[str, Any], *, level: float | None = None, on_progress: Progress = silent) -> Self:
         """Return the monitor in a document of `save`, or in that of a model with what monitoring needs, as `load` does."""
         document = document.get(MONITORING, document) if isinstance(document, Mapping) else document
         learned = Learned.from_json(document)
         made = cls.__new__(cls)
-        made._begin(learned, _rate(document.get("level", ALARM_LEVEL) if level is None else level))
+        made._begin(learned, _rate(document.get("level", ALARM_LEVEL) if level is None else level), on_progress)
         if "state" in document:
             made._resume(document["state"])
+        if "stream" in document:
+            made.mark = _mark(document["stream"])
         return made
 
     def _state(self) -> dict[str, Any]:
@@ -153,7 +162,9 @@ class Monitor(Shown):
             "recent": plain(self._recent),
             "bank": {name: values.tolist() for name, values in self._bank.state().items()},
             "state": self._predictor.state.tolist(),
-            "spread": plain(self._predictor.spread),
+            "root": plain(self._predictor.root),
+            "begun_anew": self.begun_anew,
+            "last_anew": self._last_anew,
         }
 
     def _resume(self, state: Any) -> None:
@@ -175,7 +186,10 @@ class Monitor(Shown):
             raise InvalidData(f"place: got {shorten(state['bank']['place'])}, expected a place in the window of {self._settings.window}")
         self._bank.resume(bank)
         self._predictor.state = array(state, "state", (d,))
-        self._predictor.spread = None if state.get("spread") is None else array(state, "spread", (d, d))
+        root = state.get("root")
+        wide = len(root[0]) if isinstance(root, list) and root and isinstance(root[0], list) else 0
+        self._predictor.root = None if root is None else array(state, "root", (d, wide if wide <= d + p else d))
+        self.begun_anew, self._last_anew = _counts(state, "begun_anew", ()).item(), _counts(state, "last_anew", ()).item()
 
     def restart(self) -> None:
         """Forget the state of the plant and of the tests, as after a pause of unknown length; samples are counted on."""
@@ -223,6 +237,9 @@ class Monitor(Shown):
         self._absent = np.where(missing, self._absent + 1, 0)
         self._beyond[(u < self._bounds[0]) | (u > self._bounds[1])] = number
         judged = self._predictor.step(y, u)
+        if self._predictor.begun_anew:
+            self.begun_anew += self._last_anew <= number + 1 - int(self._absent.min())  # once a gap
+            self._last_anew = number + 1
         begun = [self._gone(number, int(i)) for i in np.flatnonzero(self._absent == self._settings.window)]
         if judged is None:
             self.untested += 1
@@ -304,6 +321,8 @@ class Monitor(Shown):
         gaps = [f"{name} {count}" for name, count in zip(self.outputs, self.missing, strict=True) if count]
         if gaps:
             yield "missing", ", ".join(gaps)
+        if self.begun_anew:
+            yield "state unknown again", f"{counted(self.begun_anew, 'time')}, too much missing for an unstable model"
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict of what the sheet tells."""
@@ -325,6 +344,7 @@ class Monitor(Shown):
             "samples": self.samples,
             "not_judged": self.untested,
             "missing": plain(self.missing),
+            "begun_anew": self.begun_anew,
             "alarms": dict(self.alarms),
         }
 
@@ -359,10 +379,10 @@ def _given(
     return record_from(y, u, inputs=inputs, outputs=outputs)
 
 
-def _learned(model: Any, plant: StateSpaceModel, settings: Settings, record: Record | None) -> Learned:
+def _learned(model: Any, plant: StateSpaceModel, settings: Settings, record: Record | None, heard: Progress) -> Learned:
     """Return what the given record teaches, or where there is none, what the model or identification brings."""
     if record is not None:
-        return learn(plant, record.y, record.u, settings, names=(record.outputs, record.inputs))
+        return learn(plant, record.y, record.u, settings, names=(record.outputs, record.inputs), heard=heard)
     if isinstance(getattr(model, "record", None), Record):
         return learned_of(model, settings)
     if not isinstance(_reduced(model), ReducedModel):
@@ -425,9 +445,18 @@ def learned_of(found: Any, settings: Settings | None = None) -> Learned:
 def _counts(document: Mapping[str, Any], key: str, shape: tuple[int, ...]) -> Any:
     """Return the integers under `key`, of this shape."""
     found = array(document, key, shape)
-    if np.any(found != np.rint(found)) or np.any(np.abs(found) > 2.0**53):
-        raise InvalidData(f"{key}: got {shorten(document[key])}, expected integers")
+    if np.any(found != np.rint(found)) or np.any(found < 0) or np.any(found > 2.0**53):
+        raise InvalidData(f"{key}: got {shorten(document[key])}, expected counts, integers from 0 to 2^53")
     return found.astype(int)
+
+
+def _mark(stream: Any) -> Mapping[str, Any]:
+    """Return where in a file the samples end. Raises InvalidData for what is none."""
+    texts = isinstance(stream, Mapping) and all(isinstance(stream.get(key), str) for key in ("first", "last", "head"))
+    if not texts or set(stream) != {"bytes", "line", "first", "last", "head"}:
+        raise InvalidData(f"stream: got {shorten(stream)}, expected how far a file was read")
+    counts = {key: _counts(stream, key, ()).item() for key in ("bytes", "line")}
+    return dict(stream) | counts
 
 
 def _reduced(model: Any) -> Any:

@@ -15,7 +15,7 @@ Each costs the same at every sample, whatever came before: the first is of one s
 are recursions. A CUSUM is cut off at a length, `ceiling`, and z is shortened to 30 deviations beyond its usual length, so that all of them
 come back soon when a fault goes, and one wild sample is forgotten.
 
-Settings     window, shift, block rows, memory
+Settings     window, shift, block rows, memory; `checked` refuses what no memory holds
 Bank         the state of the four statistics
 """
 
@@ -27,11 +27,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....base.arrays import Array
+from ....base.errors import InvalidData, shorten
+from ....base.sheets import counted
 
 TESTS = ("residual", "chi-square", "cusum", "hankel")
 MEMORY = 5  # windows that the moments remember
 LONGEST = 30.0  # deviations, beside the usual root of p, to which an innovation is shortened
 REMEMBERED = ("sums", "energies", "squares", "column", "moments", "direction")  # by a bank, from sample to sample
+HELD = 1 << 24  # innovations that are remembered at most, 128 MiB
 HEIGHT, MOST_ROWS = 30, 10  # numbers in a Hankel column, and block rows, at most; two rows at least
 
 
@@ -52,6 +55,17 @@ class Settings:
     def rows(self) -> int:
         """Return the block rows of a Hankel column."""
         return int(np.clip(HEIGHT // self.p, 2, MOST_ROWS))
+
+
+def checked(settings: Settings) -> Settings:
+    """Return the settings. Raises InvalidData for a window that remembers more innovations than HELD."""
+    if settings.memory * settings.p > HELD:
+        most = HELD // (MEMORY * settings.p)
+        raise InvalidData(
+            f"window: got {shorten(settings.window)}; needed {most} samples at most for {counted(settings.p, 'output')}, of whose "
+            f"innovations {MEMORY} windows are remembered"
+        )
+    return settings
 
 
 class Bank:

@@ -32,6 +32,7 @@ import scipy.special
 
 from ....base.arrays import Array
 from ....base.errors import InvalidData
+from ....base.progress import Progress, silent
 from ....base.sheets import counted
 from .statistics import TESTS, Bank, Settings
 
@@ -61,15 +62,28 @@ class Calibration:
     notes: tuple[str, ...]
 
 
-@lru_cache(maxsize=16)
-def simulated(settings: Settings) -> Array:
+def simulated(settings: Settings, heard: Progress = silent) -> Array:
     """Return the block maxima (STREAMS BLOCKS, 4) of white Gaussian errors, after two memories in which the statistics settle."""
+    kept = _kept(settings)
+    if not kept:
+        kept.append(_simulated(settings, heard))
+    return kept[0]
+
+
+@lru_cache(maxsize=16)
+def _kept(settings: Settings) -> list[Array]:
+    """Return what has been simulated for these settings, or nothing yet."""
+    return []
+
+
+def _simulated(settings: Settings, heard: Progress) -> Array:
     draw = np.random.default_rng(SEED)
     bank, memory = Bank(settings, STREAMS), settings.memory
     maxima = np.zeros((BLOCKS, STREAMS, len(TESTS)))
     for k in range(-2 * memory, BLOCKS * memory):
         z = draw.standard_normal((STREAMS, settings.p))
         found = bank.update(z, z)
+        heard("simulating streams without a fault", k + 2 * memory + 1, (BLOCKS + 2) * memory)
         if k >= 0:
             np.maximum(maxima[k // memory], found, out=maxima[k // memory])
     result = maxima.reshape(-1, len(TESTS))
@@ -106,7 +120,7 @@ def calibrate(settings: Settings, level: float, errors: Array, sizes: Array) -> 
     return calibrated(settings, level, largest_of_blocks(settings, errors, sizes), len(errors))
 
 
-def largest_of_blocks(settings: Settings, errors: Array, sizes: Array) -> Array:
+def largest_of_blocks(settings: Settings, errors: Array, sizes: Array, heard: Progress = silent) -> Array:
     """Return the largest statistics (blocks, 4) of each block of `memory` healthy errors (M, p) and (M, p), as `Bank` takes.
 
     Raises InvalidData where there are fewer than LEAST_BLOCKS blocks.
@@ -119,14 +133,18 @@ def largest_of_blocks(settings: Settings, errors: Array, sizes: Array) -> Array:
             f"{LEAST_BLOCKS * memory} are needed: give a longer record without fault, or a shorter window"
         )
     bank = Bank(settings, 1)
-    trace = np.array([bank.update(z[None], s[None])[0] for z, s in zip(errors, sizes, strict=True)])
+    trace = np.empty((samples, len(TESTS)))
+    for k, (z, s) in enumerate(zip(errors, sizes, strict=True)):
+        trace[k] = bank.update(z[None], s[None])[0]
+        heard("judging the healthy record", k + 1, samples)
     return np.asarray(trace[samples - blocks * memory :].reshape(blocks, memory, -1).max(axis=1))
 
 
-def calibrated(settings: Settings, level: float, maxima: Array, samples: int) -> Calibration:
+def calibrated(settings: Settings, level: float, maxima: Array, samples: int, heard: Progress = silent) -> Calibration:
     """Return the thresholds for `level` false alarms a sample of all tests together, from the largest statistics (blocks, 4) of the blocks
     of so many healthy samples."""
     blocks = len(maxima)
+    simulated(settings, heard)
     ideal = ideal_thresholds(settings, level / len(TESTS))
     threshold = ideal * np.maximum(1.0, _largest(maxima) / _largest(simulated(settings), blocks))
     alarms = tuple(int(count) for count in np.sum(maxima > threshold, axis=0))

@@ -18,7 +18,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ....base.others_text import table_cell
 from ....base.progress import Progress
+from ....base.writing import new_file
 from ...method.plotting import plot_onsets
 from .by_experiment import numbered
 
@@ -144,9 +146,9 @@ def residual_table(answer: Answer, path: Path, on_progress: Progress) -> None:
     rest = answer.residual
     assert rest is not None
     several = ["experiment"] if answer.parts else []
-    with open(path, "w", encoding="utf-8", newline="") as stream:
+    with new_file(path, encoding="utf-8", newline="") as stream:
         lines = csv.writer(stream, lineterminator="\n")
-        lines.writerow([*several, "sample", "stretch", *answer.record.outputs])
+        lines.writerow([*several, "sample", "stretch", *map(table_cell, answer.record.outputs)])
         done = 0
         for number, start, _, part in numbered(answer):
             assert part.residual is not None

@@ -20,9 +20,12 @@ from pathlib import Path
 from typing import Any
 
 from ....base.errors import InvalidInput, quote_path
+from ....base.regular_files import open_own
+from ....base.writing import write_text
 
 MANIFEST = ".faultspace-files.json"
 FORMAT = "faultspace-files/1"
+LARGEST = 1 << 20  # bytes of a manifest: it names some ten files
 
 Digests = dict[str, list[str]]
 
@@ -47,6 +50,8 @@ def replace(made: Path, folder: Path, names: Sequence[str]) -> list[str]:
     after = {name: digests for name, digests in before.items() if name not in names} | new
     _note(folder, {name: before.get(name, []) + new.get(name, []) for name in before.keys() | new.keys()})
     for name in written:
+        with open(made / name, "rb+") as stream:  # what takes the place of an older answer is on the disk first
+            os.fsync(stream.fileno())
         os.replace(made / name, folder / name)
     for name in names:
         if name not in written:
@@ -73,11 +78,12 @@ def _known(folder: Path) -> Digests:
     if not os.path.lexists(path):
         return {}
     try:
-        content: Any = json.loads(path.read_text(encoding="utf-8"))
+        with open_own(path, "our own file") as stream:
+            content: Any = json.loads(stream.read(LARGEST))
+    except InvalidInput as error:
+        raise InvalidInput(f"{quote_path(str(path))}: {error}: name a new folder") from None
     except (ValueError, RecursionError):
         content = None
-    except OSError as error:
-        raise InvalidInput(f"{quote_path(str(path))}: cannot be read ({error.strerror or error}): name a new folder") from None
     files = content.get("files") if isinstance(content, dict) and content.get("format") == FORMAT else None
     if not isinstance(files, dict) or not all(isinstance(digests, list) for digests in files.values()):
         raise InvalidInput(f'{quote_path(str(path))}: is not ours, expected "format": "{FORMAT}" with "files": name a new folder')
@@ -85,7 +91,4 @@ def _known(folder: Path) -> Digests:
 
 
 def _note(folder: Path, files: Mapping[str, Sequence[str]]) -> None:
-    """Write the manifest elsewhere first, so that it is never half there."""
-    unfinished = folder / (MANIFEST + ".unfinished")
-    unfinished.write_text(json.dumps({"format": FORMAT, "files": files}, indent=1) + "\n", encoding="utf-8")
-    os.replace(unfinished, folder / MANIFEST)
+    write_text(folder / MANIFEST, json.dumps({"format": FORMAT, "files": files}, indent=1) + "\n")

@@ -10,11 +10,13 @@ from __future__ import annotations
 
 import os
 from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ....base.errors import InvalidData, InvalidInput, quote_path
+from ....base.errors import InvalidData
+from ....base.writing import whole_file
 from .by_experiment import numbered
 from .causes_told import stretches
 
@@ -51,10 +53,8 @@ def to_mat(answer: Answer, path: str | os.PathLike[str]) -> None:
     content = {"A": model.A, "B": model.B, "C": model.C, "D": model.D, "F": F, "G": G, "x0": x0[:, np.newaxis]}
     # Object arrays become cell arrays, as names of different lengths must.
     names = {"inputs": np.array(record.inputs, dtype=object), "outputs": np.array(record.outputs, dtype=object)}
-    try:
-        savemat(path, content | names | {"dt": UNKNOWN if answer.dt is None else answer.dt}, appendmat=False, oned_as="column")
-    except OSError as error:
-        raise InvalidInput(f"{quote_path(os.fspath(path))}: cannot be written ({error.strerror or error}), expected another path") from None
+    with whole_file(Path(path)) as stream:
+        savemat(stream, content | names | {"dt": UNKNOWN if answer.dt is None else answer.dt}, oned_as="column")
 
 
 def to_pandas(answer: Answer) -> Any:

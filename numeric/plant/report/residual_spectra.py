@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ....base.arrays import Array
+from ....base.others_text import as_label
 from ...data.records import SampleStore
 from ...method.plotting import BLUE, GREY, MOST_CHANNELS, ORANGE, finished
 
@@ -104,7 +105,7 @@ def draw(found: list[tuple[str, list[tuple[str, Array]]]], dt: float | None, fig
         low, high = ax.get_ylim()
         wider = max(0.0, LEAST_SPAN - (high - low)) / 2
         ax.set_ylim(low - wider, high + wider)
-        ax.set_ylabel(name if len(name) <= 12 else name[:11] + "…")
+        ax.set_ylabel(as_label(name if len(name) <= 12 else name[:11] + "…"))
         finished(ax, legend=False)
     axes[-1].set_xlabel("frequency in Hz" if dt else "frequency in cycles a sample")
     axes[0].set_title(f"Spectra, in dB of power a {'hertz' if dt else 'cycle a sample'}", loc="left")

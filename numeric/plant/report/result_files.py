@@ -15,8 +15,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ....base.errors import InvalidData, InvalidInput, quote_path
+from ....base.errors import InvalidData, InvalidInput, quote_path, shorten
+from ....base.others_text import table_cell
 from ....base.progress import Progress
+from ....base.writing import UNFINISHED, new_file, reason
 from ...data.plain import plain
 from ...method.model.invariants import half_transfers, system_matrix
 from ...method.model.moesp_model import MoespModel
@@ -174,21 +176,18 @@ def write(
     remarks: list[str] = []
     refuse(out, NAMES)
     try:
-        with tempfile.TemporaryDirectory(prefix=".unfinished-", dir=out) as name:
+        with tempfile.TemporaryDirectory(prefix=UNFINISHED, dir=out) as name:
             folder = Path(name)
             remarks += _tables(answer, folder, on_progress)
             remarks += pictures(answer, folder)
             lines = [*summary(answer, data, worded=worded)]
             if remarks:
-                lines += ["", "## Missing", *(f"- {remark}" for remark in remarks)]
-            (folder / SUMMARY).write_text(markdown(lines), encoding="utf-8")
-            (folder / PAGE).write_text(report(answer, lines, folder, data), encoding="utf-8")
+                lines += ["", "## Files", *(f"- {remark}" for remark in remarks)]
+            _text(folder / SUMMARY, markdown(lines))
+            _text(folder / PAGE, report(answer, lines, folder, data))
             written = replace(folder, out, NAMES)
     except OSError as error:
-        reason = error.strerror or str(error)
-        raise InvalidInput(
-            f"{quote_path(str(out))}: cannot be written into ({reason[:1].lower()}{reason[1:]}), expected another folder"
-        ) from None
+        raise InvalidInput(f"{quote_path(str(out))}: cannot be written into ({reason(error)}), expected another folder") from None
     return written, remarks
 
 
@@ -203,6 +202,8 @@ def _tables(answer: Answer, folder: Path, on_progress: Progress) -> list[str]:
         _json(folder / SPACE, space)
     if answer.residual is not None:
         residual_table(answer, folder / RESIDUAL, on_progress)
+        if formulas := [name for name in answer.record.outputs if table_cell(name) != name]:
+            remarks += [f"{RESIDUAL}: an apostrophe stands before {shorten(formulas[0])}, which a spreadsheet would take for a formula"]
     if any(part.signal is not None for part in answer.experiments):
         _signal_table(answer, folder / SIGNAL, on_progress)
     return remarks
@@ -230,7 +231,7 @@ def _signal_table(answer: Answer, path: Path, on_progress: Progress) -> None:
     """Write a line a sample: its number, whether v is determined there (1 or 0), v in digits that give the float back. Where there are
     several experiments, the number of each stands first, samples are counted in each, and those without a signal have no lines."""
     several, done = ["experiment"] if answer.parts else [], 0
-    with open(path, "w", encoding="utf-8", newline="\n") as stream:
+    with new_file(path, encoding="utf-8", newline="\n") as stream:
         width = answer.pair[0].shape[1] if answer.pair else 0
         stream.write(",".join([*several, "sample", "determined", *(f"v{j + 1}" for j in range(width))]) + "\n")
         for number, start, _, part in numbered(answer):
@@ -269,4 +270,9 @@ def _json(path: Path, content: dict[str, Any], monitoring: dict[str, Any] | None
     text = json.dumps(content, indent=1, allow_nan=False)
     if monitoring is not None:
         text = f'{text[:-2]},\n "{MONITORING}": {json.dumps(monitoring, allow_nan=False)}\n}}'
-    path.write_text(text + "\n", encoding="utf-8")
+    _text(path, text + "\n")
+
+
+def _text(path: Path, text: str) -> None:
+    with new_file(path, encoding="utf-8", errors="backslashreplace") as stream:
+        stream.write(text)

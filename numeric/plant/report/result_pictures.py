@@ -2,6 +2,7 @@
 
 main_picture the one picture of `Identification.plot`
 pictures     draws what the Answer holds into a folder; remarks on what could not be had
+drawn        one picture into a file, or the remark that says why there is none
 PICTURES     the names of the files
 
     singular-values   of PI-MOESP, with the order
@@ -19,13 +20,16 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from functools import partial
 from importlib import import_module
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ....base.errors import InvalidData
+from ....base.errors import InvalidData, shorten
+from ....base.writing import new_file
 from ...method import plotting as drawing
 from ...method.model.reduced_model import ReducedModel
 from ...method.signal.residual_sizes import loudest
@@ -53,12 +57,29 @@ def pictures(answer: Answer, folder: Path) -> list[str]:
         figure: Any = import_module("matplotlib.figure")
     except ImportError:
         return ["no plots: matplotlib is not installed (pip install 'faultspace[plots]')"]
-    for name, size, draw in _drawings(answer):
+
+    def made(size: tuple[float, float], draw: Callable[[Any], Any]) -> Any:
         picture = figure.Figure(figsize=size, layout="constrained")
         draw(picture)
-        with warnings.catch_warnings():
+        return picture
+
+    return [remark for name, size, draw in _drawings(answer) for remark in drawn(folder / name, partial(made, size, draw))]
+
+
+def drawn(path: Path, make: Callable[[], Any]) -> list[str]:
+    """Draw the figure that `make` returns into a new file; remarks where that fails: an answer does not depend on its pictures. Raises
+    OSError where the file cannot be written."""
+    matplotlib: Any = import_module("matplotlib")
+    picture = BytesIO()
+    try:
+        # Whatever the user's settings, a name is never handed to TeX.
+        with matplotlib.rc_context({"text.usetex": False}), warnings.catch_warnings():
             warnings.simplefilter("ignore", UserWarning)  # letters that the font lacks are drawn as boxes, long names leave less room
-            picture.savefig(folder / name, dpi=130)
+            make().savefig(picture, format="png", dpi=130)
+    except Exception as error:
+        return [f"{path.name}: matplotlib did not draw it ({shorten(f'{type(error).__name__}: {error}')})"]
+    with new_file(path, "xb") as stream:
+        stream.write(picture.getvalue())
     return []
 
 

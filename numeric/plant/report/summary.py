@@ -8,6 +8,7 @@ markdown    the lines as a file: blank lines around headings, code and lists
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from ....base.arrays import Array
 from ....base.errors import quote_path
+from ....base.others_text import as_markdown, printable
 from ....base.sheets import counted
 from ...method.model.invariants import half_transfers, system_matrix
 from ...method.model.reduced_model import ReducedModel
@@ -36,6 +38,8 @@ MOST_ROWS = 12
 DIGITS = 4
 CANDIDATES = 3
 MOST_POLES = 3
+_BEGINNING = re.compile(r"#{1,3} |- ")
+_BOLD = re.compile(r"(?:(.*? |)\*\*(\S.*?)\*\*(?![\w*]))?(.*)", re.DOTALL)
 LEVEL_MISSED = np.sqrt(0.5)  # of what is missed, by size, so that half of its squares are a constant
 
 
@@ -471,7 +475,8 @@ def _matrix(matrix: Array) -> list[str]:
 
 
 def markdown(lines: Sequence[str]) -> str:
-    """Return the lines with blank ones around headings, code and lists; a plain line is a paragraph's own line."""
+    """Return the lines with blank ones around headings, code and lists; a plain line is a paragraph's own line. The one Markdown that lines
+    have is ours: their beginnings, and the first thing in bold; names and whatever else stands in them is text."""
     text: list[str] = []
     for line in lines:
         plain = bool(line) and not line.startswith(("#", "-", "    "))
@@ -479,7 +484,18 @@ def markdown(lines: Sequence[str]) -> str:
         code, after_code = line.startswith("    "), last.startswith("    ")
         if (last and (line.startswith("#") or (code and not after_code))) or (after_code and plain):
             text.append("")
-        text.append(f"{line}  " if plain else line)
+        shown = printable(line) if code else _shown(line)
+        text.append(f"{shown}  " if plain else shown)
         if line.startswith("#"):
             text.append("")
     return "\n".join(text) + "\n"
+
+
+def _shown(line: str) -> str:
+    """Return a line that is no code, its text escaped."""
+    begins = _BEGINNING.match(line)
+    mark = "" if begins is None else begins[0]
+    before, bold, after = _BOLD.fullmatch(line[len(mark) :]).groups()  # type: ignore[union-attr]  # it matches every line
+    if bold is None:
+        return mark + as_markdown(after, first=True)
+    return f"{mark}{as_markdown(before, first=True)}**{as_markdown(bold)}**{as_markdown(after)}"

@@ -21,7 +21,7 @@ from tests.numeric.audit.unseen.table import kept
 
 HEAD = f"""# Mutants and what catches them
 
-Made by `python -m tests.numeric.audit.matrix --out numeric/audit/MUTANTS.md`, with vectors of version {VERSION}.
+Made by `python -m tests.numeric.audit.matrix --out FILE`, with vectors of version {VERSION}.
 
 ## Ours
 
@@ -31,8 +31,8 @@ trouble has one more mutant, in `tests/numeric/audit/test_trouble_mutants.py`.
 UNSEEN = """## Unseen
 
 Whoever wrote these had not read the vectors or the checks. Beside each stands one check that it fails.
-`python -m pytest -m slow tests/numeric/audit/unseen/test_caught.py` asks each that check again, and all in turn where the mutant
-remembers what it was asked before; one in thirty is asked daily.
+`python -m pytest -m mutants tests/numeric/audit/unseen/test_caught.py` asks each that check again, and all in turn where the mutant
+remembers what it was asked before; some are asked daily.
 """
 
 

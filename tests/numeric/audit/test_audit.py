@@ -13,11 +13,14 @@ import pytest
 
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.audit import adapter, reference
-from faultspace.numeric.audit.adapter import FUNCTIONS, load
+from faultspace.numeric.audit.adapter import FUNCTIONS, guarded, load
 from faultspace.numeric.audit.checks.catalogue import all_checks, quick_checks
+from faultspace.numeric.audit.checks.refusals import same_output_twice
 from faultspace.numeric.audit.making.kinds_of_trouble import KINDS
 from faultspace.numeric.audit.records import CheckResult, Demand, Measurement, message, perform
 from faultspace.numeric.audit.running import ExpectedFailure, audit, parametrize_with_checks
+from faultspace.numeric.audit.vectors.rationals import floats
+from faultspace.numeric.audit.vectors.shipped_vectors import shipped
 from tests.thorough import every
 
 # What mypy checks: the reference is what the protocols describe.
@@ -51,6 +54,33 @@ def test_every_function_has_checks_that_hold_and_that_refuse() -> None:
     assert {one.function for one in checks if one.kind is Demand.MUST_REFUSE} == set(FUNCTIONS)
     named = [(one.name, one.function) for one in checks]
     assert len(named) == len(set(named))
+
+
+def _model_of(vector: Any, states: int = 0) -> Any:
+    """Return the exact model, with so many states more, which nothing drives and no output shows."""
+    A, B, C, D = (floats(one) for one in (vector.A, vector.B, vector.C, vector.D))
+    return np.pad(A, (0, states)), np.pad(B, ((0, states), (0, 0))), np.pad(C, ((0, 0), (0, states))), D
+
+
+def test_who_is_right_where_a_refusal_would_do_is_not_accused() -> None:
+    """Published packages were: their models were right to 3e-15, or their columns all that there are."""
+    model = next(one for one in shipped("identification") if one.slug == "n3-u2-p2")
+    faulty = next(one for one in shipped("faults") if one.slug == "two-faults")
+    exact, everything = _model_of(model), np.eye(faulty.system.n + faulty.system.p)
+    asked = {(one.slug, one.function, one.vector): one for one in all_checks()}
+    for slug, function, vector, answer in (
+        ("refuses-window-at-the-lag", "identify", "same-output-twice", _model_of(same_output_twice())),
+        ("refuses-impossible-order", "identify", "n3-u2-p2", _model_of(model, 6)),
+        ("refuses-nan-output", "identify", "n3-u2-p2", exact),
+        ("refuses-no-number", "identify", "n3-u2-p2-y-infinity-in-the-corner", exact),
+        ("refuses-no-number", "identify", "n3-u2-p2-u-nan", exact),
+        ("refuses-too-many-faults", "fault_space", "two-faults", floats(faulty.space)),
+        ("refuses-pure-noise", "fault_space", "two-faults", everything),
+    ):
+        check = asked[slug, function, vector]
+        wrong = tuple(-one for one in answer) if function == "identify" else answer[:, :1]
+        verdicts = [perform(check, guarded(lambda *arguments, found=found: found)).verdict for found in (answer, None, wrong)]
+        assert verdicts == ["pass", "pass", "fail"], (slug, verdicts)
 
 
 def test_every_claim_is_in_the_ledger() -> None:

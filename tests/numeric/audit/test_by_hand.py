@@ -42,6 +42,7 @@ def test_there_is_something_to_run() -> None:
     assert agree([42.96], ["43.0"]) and not agree([42.94], ["43.0"]) and not agree([8.1], ["8"]) and not agree([], ["8"])
 
 
+@pytest.mark.programs
 @pytest.mark.parametrize("block", [one for one in FOUND if one.kind == "octave"], ids=lambda block: block.text[:30])
 def test_octave_prints_it(block: Block) -> None:
     if shutil.which("octave-cli") is None:

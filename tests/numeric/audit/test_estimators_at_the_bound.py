@@ -19,11 +19,8 @@ from faultspace.numeric.method.space.distances import two_sided_error
 from faultspace.numeric.study.random_systems import N_V, study_system
 from faultspace.numeric.study.runs import study_run
 
-# Twenty lags of forty samples would be as many coefficients as numbers; and a window of PI-MOESP that is too short is no window of ours.
-OTHERWISE = (
-    ExpectedFailure("split-data[n2-u3-p1]", "40 samples do not carry the two lags of order 2 with four windows a regressor"),
-    ExpectedFailure("refuses-window-at-the-lag[same-output-twice]", "the window is that of PI-MOESP, and is not used"),
-)
+# Twenty lags of forty samples would be as many coefficients as numbers.
+OTHERWISE = (ExpectedFailure("split-data[n2-u3-p1]", "40 samples do not carry the two lags of order 2 with four windows a regressor"),)
 QUICK = ("exact-recovery", "consistent-under-coloured-fault", "refuses-unexciting-input")
 
 

@@ -11,7 +11,6 @@ from pathlib import Path
 import pytest
 
 from faultspace.numeric.audit.running import audit
-from tests.thorough import every
 
 HERE = Path(__file__).parent / "independent"
 # One slug for each thing that a function owes. All vectors of each are asked, so that none is picked; most views of them, and growth, are
@@ -66,6 +65,7 @@ def test_right_code_by_other_algorithms_passes(name: str, missing: set[str]) -> 
     assert not found.failed, found.summary()
 
 
+@pytest.mark.programs
 @pytest.mark.skipif(shutil.which("octave-cli") is None, reason="octave-cli is not installed")
 def test_right_code_in_octave_passes() -> None:
     found = audit(command=["sh", str(HERE / "octave.sh")], only=QUICK)
@@ -73,6 +73,7 @@ def test_right_code_in_octave_passes() -> None:
     assert not found.failed, found.summary()
 
 
+@pytest.mark.mutants
 @pytest.mark.parametrize(
     ("name", "line", "wrong", "function"),
     [
@@ -90,7 +91,7 @@ def test_right_code_in_octave_passes() -> None:
         ("other.py", "M = row @ C + M @ A", "M = row @ C", "fault_space"),
         ("other.py", "z = target @ seen", "z = 0 * target @ seen", "reconstruct"),
         ("other.py", "zeros = np.linalg.eigvals(X[c:, c:])", "zeros = np.linalg.eigvals(X[c:, c:] * 1.001)", "structure"),
-    ][:: every()],
+    ],
 )
 def test_the_same_code_with_a_line_wrong_fails(tmp_path: Path, name: str, line: str, wrong: str, function: str) -> None:
     text = (HERE / name).read_text("utf-8")

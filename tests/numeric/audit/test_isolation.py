@@ -127,7 +127,7 @@ def test_the_same_records_with_and_without_a_process_of_its_own() -> None:
 def test_what_the_worker_cannot_load(tmp_path: Path, text: str, words: str) -> None:
     file = tmp_path / "broken.py"
     file.write_text(text + "\n", "utf-8")
-    assert words in worker._loaded(str(file), {}, {})["invalid"]
+    assert words in worker._loaded(str(file), {})["invalid"]
 
 
 @pytest.mark.parametrize(("text", "words"), [("import no_such_package", "no_such_package"), ("import os; os._exit(1)", "ended without")])

@@ -127,6 +127,7 @@ def test_the_registry_imports_no_peer() -> None:
     assert run.stdout.strip() == "[]"
 
 
+@pytest.mark.programs
 @pytest.mark.parametrize("name", OFFERED)
 def test_what_a_peer_offers(name: str) -> None:
     one = peer(name)
@@ -139,12 +140,14 @@ def test_what_a_peer_offers(name: str) -> None:
             assert sorted(offered(program)) == sorted(OFFERED[name])
 
 
+@pytest.mark.programs
 @pytest.mark.parametrize(("name", "check"), RIGHT)
 def test_a_peer_gets_right_what_it_can(name: str, check: str) -> None:
     record = _asked(name, check)[check]
     assert record.verdict == Status.PASS, record
 
 
+@pytest.mark.programs
 @pytest.mark.parametrize(("name", "check", "verdict"), WRONG)
 def test_a_known_error_is_found(name: str, check: str, verdict: str) -> None:
     record = _asked(name, check)[check]
@@ -162,6 +165,7 @@ def test_what_is_not_offered_is_declined() -> None:
     assert record.verdict == Status.NOT_OFFERED and "normal_rank" in record.detail
 
 
+@pytest.mark.programs
 def test_a_missing_clone_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(FAULT_ID, str(tmp_path))
     assert peer("fault_id").version() is None
@@ -171,6 +175,7 @@ def test_a_missing_clone_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
         Exec(peer("fault_id").command or ())
 
 
+@pytest.mark.programs
 def test_numbers_pass_through_octave_to_the_last_bit() -> None:
     """jsondecode and jsonencode would not do that."""
     if peer("octave-control").version() is None:
@@ -183,6 +188,7 @@ def test_numbers_pass_through_octave_to_the_last_bit() -> None:
 
 
 @pytest.mark.skipif(shutil.which(JULIA[0]) is None, reason="Julia is not installed")
+@pytest.mark.programs
 def test_numbers_pass_through_julia_to_the_last_bit_and_its_errors_are_told_apart() -> None:
     """Of a matrix without rows JSON does not tell the columns: F has those of G, G those of F, C and A those of A."""
     program = f"""include("{HERE / "json_lines.jl"}")

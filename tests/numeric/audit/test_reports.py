@@ -29,7 +29,6 @@ from faultspace.numeric.audit.reports.versions import versions
 from faultspace.numeric.audit.reports.words import beside, lines_of
 from faultspace.numeric.audit.running import parametrize_with_checks
 from faultspace.numeric.audit.signatures import ARGUMENTS, fitting
-from faultspace.numeric.audit.subjects import subprocess_adapter
 from tests.end_to_end.commands import call
 
 FIELDS = st.text(st.characters(codec="utf-8"), max_size=20)
@@ -335,10 +334,6 @@ def test_a_saved_result_that_is_none_is_refused(tmp_path: Path, text: str) -> No
 
 
 # -- signatures --------------------------------------------------------------------------------------------------------------------
-
-
-def test_the_arguments_are_those_of_the_protocol_for_other_languages() -> None:
-    assert ARGUMENTS == subprocess_adapter.ARGUMENTS
 
 
 @pytest.mark.parametrize(

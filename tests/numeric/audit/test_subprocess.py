@@ -158,6 +158,7 @@ def test_what_does_not_speak_the_protocol() -> None:
         Exec(silly, Limits(seconds=5.0))
 
 
+@pytest.mark.programs
 @pytest.mark.parametrize(("shell", "name"), [("octave-cli", "adapter.m"), ("sh", "adapter.sh")])
 def test_the_examples_pass(shell: str, name: str) -> None:
     found = shutil.which(shell)

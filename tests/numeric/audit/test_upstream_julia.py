@@ -34,6 +34,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return written
 
 
+pytestmark = pytest.mark.programs
 julia = pytest.mark.skipif(shutil.which(JULIA[0]) is None, reason="Julia is not installed")
 
 REPLAY = """

@@ -85,7 +85,7 @@ except (ValueError, ArithmeticError) as error:
 if answer is None:
     sys.exit(0)  # right: there is nothing to answer
 
-print('WRONG: answered where no answer can be right')
+print('WRONG: answered where a refusal is due')
 print('  got', answer)
 failed = True
 

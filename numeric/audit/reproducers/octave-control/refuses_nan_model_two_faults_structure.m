@@ -63,6 +63,6 @@ catch problem
   fprintf('refused: %s\nright: there is nothing to answer\n', problem.message); exit(0);
 end
 
-disp('WRONG: answered where no answer can be right'); failed = true;
+disp('WRONG: answered where a refusal is due'); failed = true;
 
 exit(double(failed));

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..questions import Due
-from .writing import floats, table
+from .writing import due_lines, number
 
 HELPERS = """
 using LinearAlgebra
@@ -82,13 +82,13 @@ class Julia:
     def value(self, name: str, value: Any) -> list[str]:
         """Return the assignment."""
         if not isinstance(value, (list, np.ndarray)):
-            return [f"{name} = {_number(value)}"]
+            return [f"{name} = {number(value)}"]
         array = np.asarray(value)
         if not array.size:
             return [f"{name} = zeros({', '.join(map(str, array.shape))})"]
         if array.ndim == 1:
-            return [f"{name} = [{', '.join(map(_number, array.tolist()))}]"]
-        rows = [f"    {' '.join(map(_number, row))}" for row in array.tolist()]
+            return [f"{name} = [{', '.join(map(number, array.tolist()))}]"]
+        rows = [f"    {' '.join(map(number, row))}" for row in array.tolist()]
         return [f"{name} = reshape([", *rows, f"], {array.shape[0]}, {array.shape[1]})"]
 
     def asked(self, function: str, arguments: Sequence[str], *, refusal: bool) -> list[str]:
@@ -101,18 +101,9 @@ class Julia:
 
     def compared(self, due: Due) -> list[str]:
         """Return the comparison of one thing that is due."""
-        sides, lines = due.sides, list[str]()
-        for name, value in sides.given.items():
-            if name == "kernel_rows":
-                lines += ["kernel_rows = Matrix{Float64}[]"]
-                for row in value:
-                    lines += [*self.value("row", np.array(floats(row))), "push!(kernel_rows, row)"]
-            else:
-                lines += self.value(name, floats(value))
-        lines += self.value("expected", np.array(table(floats(sides.truth))))
-        bounds = np.array(table(floats(sides.bounds))) if isinstance(sides.bounds, (list, tuple)) else float(sides.bounds)
+        lines = due_lines(self.value, due, "kernel_rows = Matrix{Float64}[]", "push!(kernel_rows, row)")
         what = '"' + due.quantity.replace('"', "'") + '"'
-        return [*lines, *self.value("bound", bounds), *(one.replace("{what}", what) for one in COMPARED[sides.of])]
+        return [*lines, *(one.replace("{what}", what) for one in COMPARED[due.sides.of])]
 
     def twice(self, function: str, arguments: Sequence[str]) -> list[str]:
         """Return two calls and their comparison."""
@@ -134,17 +125,9 @@ class Julia:
         ]
 
     def refused(self) -> list[str]:
-        """Return what an answer means where none can be right."""
-        return ['println("WRONG: answered where no answer can be right\\n", answer)', "failed = true"]
+        """Return what an answer means where a refusal is due."""
+        return ['println("WRONG: answered where a refusal is due\\n", answer)', "failed = true"]
 
     def ending(self) -> list[str]:
         """Return the exit code."""
         return ["exit(failed ? 1 : 0)"]
-
-
-def _number(value: Any) -> str:
-    if isinstance(value, (bool, np.bool_)):
-        return "true" if value else "false"
-    if isinstance(value, complex):
-        return f"complex({_number(value.real)},{_number(value.imag)})"
-    return {"nan": "NaN", "inf": "Inf", "-inf": "-Inf"}.get(repr(value), repr(value))

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..questions import Due
-from .writing import floats, table
+from .writing import due_lines, number
 
 ANSWERS = {
     "identify": "[A_, B_, C_, D_]",
@@ -87,12 +87,12 @@ class Matrices:
     def value(self, name: str, value: Any) -> list[str]:
         """Return the assignment."""
         if not isinstance(value, (list, np.ndarray)):
-            return [f"{name} = {_number(value)};"]
+            return [f"{name} = {number(value)};"]
         array = np.asarray(value)
         array = array.reshape(-1, 1) if array.ndim == 1 else array
         if not array.size:
             return [f"{name} = zeros({array.shape[0]}, {array.shape[1]});"]
-        return [f"{name} = [", *("  " + " ".join(map(_number, row.tolist())) for row in array), "];"]
+        return [f"{name} = [", *("  " + " ".join(map(number, row.tolist())) for row in array), "];"]
 
     def asked(self, function: str, arguments: Sequence[str], *, refusal: bool) -> list[str]:
         """Return the call, and the end where there is no answer."""
@@ -109,18 +109,9 @@ class Matrices:
 
     def compared(self, due: Due) -> list[str]:
         """Return the comparison of one thing that is due."""
-        sides, lines = due.sides, list[str]()
-        for name, value in sides.given.items():
-            if name == "kernel_rows":
-                lines += ["kernel_rows = {};"]
-                for row in value:
-                    lines += [*self.value("row", np.array(floats(row))), "kernel_rows{end+1} = row;"]
-            else:
-                lines += self.value(name, floats(value))
-        lines += self.value("expected", np.array(table(floats(sides.truth))))
-        bounds = np.array(table(floats(sides.bounds))) if isinstance(sides.bounds, (list, tuple)) else float(sides.bounds)
+        lines = due_lines(self.value, due, "kernel_rows = {};", "kernel_rows{end+1} = row;")
         what = due.quantity.replace("'", "''")
-        return [*lines, *self.value("bound", bounds), f"what = '{what}';", *COMPARED[sides.of], *TELL]
+        return [*lines, f"what = '{what}';", *COMPARED[due.sides.of], *TELL]
 
     def twice(self, function: str, arguments: Sequence[str]) -> list[str]:
         """Return two calls and their comparison."""
@@ -139,17 +130,9 @@ class Matrices:
         return [f"{function}({', '.join(arguments)});", "disp('right: a function here gets copies of its arguments');"]
 
     def refused(self) -> list[str]:
-        """Return what an answer means where none can be right."""
-        return ["disp('WRONG: answered where no answer can be right'); failed = true;"]
+        """Return what an answer means where a refusal is due."""
+        return ["disp('WRONG: answered where a refusal is due'); failed = true;"]
 
     def ending(self) -> list[str]:
         """Return the exit code."""
         return ["exit(double(failed));"]
-
-
-def _number(value: Any) -> str:
-    if isinstance(value, (bool, np.bool_)):
-        return "true" if value else "false"
-    if isinstance(value, complex):
-        return f"complex({_number(value.real)},{_number(value.imag)})"
-    return {"nan": "NaN", "inf": "Inf", "-inf": "-Inf"}.get(repr(value), repr(value))

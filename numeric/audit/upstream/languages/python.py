@@ -211,8 +211,8 @@ class Python:
         ]
 
     def refused(self) -> list[str]:
-        """Return what an answer means where none can be right."""
-        return ["print('WRONG: answered where no answer can be right')", "print('  got', answer)", "failed = True"]
+        """Return what an answer means where a refusal is due."""
+        return ["print('WRONG: answered where a refusal is due')", "print('  got', answer)", "failed = True"]
 
     def ending(self) -> list[str]:
         """Return the exit code."""

@@ -3,12 +3,16 @@
 Dialect   writes lines of one language
 table     nested lists as rows of a matrix
 floats    nested lists with floats for rationals
+number    a number in Octave, MATLAB and Julia
+due_lines the assignments of what is due, in a language of matrices
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Protocol
+
+import numpy as np
 
 from ..questions import Due
 
@@ -35,7 +39,7 @@ class Dialect(Protocol):
         """Return the call, and a look at the arguments after it."""
 
     def refused(self) -> list[str]:
-        """Return what an answer means where none can be right."""
+        """Return what an answer means where a refusal is due."""
 
     def ending(self) -> list[str]:
         """Return the exit code: 1 where something was wrong."""
@@ -57,3 +61,25 @@ def floats(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [floats(one) for one in value]
     return value if isinstance(value, (bool, int, complex)) else float(value)
+
+
+def number(value: Any) -> str:
+    """Return a number as Octave, MATLAB and Julia write it."""
+    if isinstance(value, (bool, np.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, complex):
+        return f"complex({number(value.real)},{number(value.imag)})"
+    return {"nan": "NaN", "inf": "Inf", "-inf": "-Inf"}.get(repr(value), repr(value))
+
+
+def due_lines(assigned: Callable[[str, Any], list[str]], due: Due, no_rows: str, one_more: str) -> list[str]:
+    """Return the assignments of `expected`, `bound` and what the comparison needs besides; `no_rows` begins a list of the kernel rows, to
+    which `one_more` adds `row`."""
+    sides, lines = due.sides, list[str]()
+    for name, value in sides.given.items():
+        if name == "kernel_rows":
+            lines += [no_rows, *(line for row in value for line in (*assigned("row", np.array(floats(row))), one_more))]
+        else:
+            lines += assigned(name, floats(value))
+    bounds = np.array(table(floats(sides.bounds))) if isinstance(sides.bounds, (list, tuple)) else float(sides.bounds)
+    return [*lines, *assigned("expected", np.array(table(floats(sides.truth)))), *assigned("bound", bounds)]

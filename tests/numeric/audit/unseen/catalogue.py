@@ -2,12 +2,9 @@
 
 ALL        every Unseen, in the order of the files
 BY_NAME    the same by slug
-adapters   an object with an implementation for each slug, for a program that loads one by name
 """
 
 from __future__ import annotations
-
-from types import SimpleNamespace
 
 from tests.numeric.audit.unseen import (
     close_together,
@@ -18,10 +15,6 @@ from tests.numeric.audit.unseen import (
     from_records,
     identify,
     identify_channels,
-    left_in_the_process,
-    left_in_the_system,
-    limits,
-    manners,
     reconstruct,
     residual,
     small_print,
@@ -42,14 +35,10 @@ FILES = (
     structure,
     structure_ranks,
     from_records,
-    manners,
-    limits,
     corners,
     far_along,
     close_together,
-    left_in_the_process,
     small_print,
-    left_in_the_system,
 )
 
 
@@ -62,6 +51,7 @@ def _all() -> tuple[Unseen, ...]:
 ALL = _all()
 BY_NAME = {one.name: one for one in ALL}
 RIGHT = {
+    "fault-space-cuts-n-v-to-the-outputs": "a number of faults that is not that of the record may be put right",
     "fault-dimension-says-p-where-nothing-is-known": "where all outputs are faulty, or nothing is known, a number is free",
     "identify-squeezes-a-single-state": "a matrix of one row or column may be answered as a list of its numbers",
     "structure-lists-orders-from-the-largest": "the order of a list of zeros, or of their orders, is anybody's",
@@ -69,4 +59,3 @@ RIGHT = {
     "fault-dimension-takes-a-sine-for-none": "a sine does not excite: no number is due",
     "identify-saves-memory-on-long-records": "of long records whole numbers are compared, and of models those are small",
 }
-adapters = SimpleNamespace(**{one.name: one.adapter for one in ALL})

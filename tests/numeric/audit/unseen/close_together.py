@@ -10,10 +10,9 @@ import numpy as np
 from faultspace.numeric.audit import reference
 from faultspace.numeric.audit.adapter import ZeroStructure
 from faultspace.numeric.method.model.models import StateSpaceModel
-from tests.numeric.audit.unseen.form import Mutants, careful
-from tests.numeric.audit.unseen.residual import without_free
+from tests.numeric.audit.unseen.form import Mutants
 from tests.numeric.audit.unseen.systems import Record, channel, faulty, general, joined, jordan, plant, record
-from tests.numeric.audit.unseen.witnesses import has_structure, recovers, restores, takes_out
+from tests.numeric.audit.unseen.witnesses import has_structure, recovers, restores
 
 IDENTIFY, RESIDUAL, SIGNAL, STRUCTURE = Mutants("identify"), Mutants("residual"), Mutants("reconstruct"), Mutants("structure")
 
@@ -26,10 +25,6 @@ def _weak() -> Record:
     return record(StateSpaceModel(model.A, (V @ modes).real, model.C, model.D), 300, 901, x0=0.0)
 
 
-def _constant_fault() -> Record:
-    return record(plant([0.7, -0.4], 1, 2, 902), 200, 902, fault=np.tile([[1.0, -0.4]], (200, 1)) * (np.arange(200)[:, None] > 90))
-
-
 WEAK = _weak()
 UNLIKE = record(plant([0.7, -0.4], 2, 2, 903), 200, 903)
 UNLIKE = Record(
@@ -38,29 +33,11 @@ UNLIKE = Record(
     UNLIKE.y,
     UNLIKE.fault,
 )
-NARROW = joined([channel([0.4 + 1e-4j], [0.5, -0.3, 0.2])], [[1.0]], 904)
 NEAR = joined([channel([0.4, 0.4003], [0.5, -0.3, 0.2])], [[1.0]], 905)
-NEAR_POLE = joined([channel([0.6], [0.60001, -0.3])], [[1.0]], 906)
 TEN = joined([channel(list(np.linspace(0.1, 0.9, 9)), list(np.linspace(-0.9, -0.1, 10)))], [[1.0]], 907)
 LOW_GAIN = general([0.7, -0.4], 2, 3, 908)
 LOW_GAIN = (LOW_GAIN[0], LOW_GAIN[1] * [1.0, 1e-7], LOW_GAIN[2], LOW_GAIN[3] * [1.0, 1e-7])
 DEFECTIVE = record(plant(jordan(0.9, 3), 1, 2, 909), 200, 909, fault=0.3 * np.random.default_rng(909).standard_normal((200, 2)))
-
-
-@IDENTIFY.broken("a state that the input hardly moves", recovers(WEAK, 2, 4))
-def reduces_to_what_matters(y: Any, u: Any, order: int, block_rows: int) -> Any:
-    """States whose Hankel singular value is below a hundred-thousandth of the largest are taken out by balanced truncation."""
-    A, B, C, D = reference.identify(y, u, order, block_rows)
-    if not np.max(np.abs(np.linalg.eigvals(A))) < 1:
-        return A, B, C, D
-    reach, see = np.zeros_like(A), np.zeros_like(A)
-    power = np.eye(len(A))
-    for _ in range(400):
-        reach, see, power = reach + power @ B @ B.T @ power.T, see + power.T @ C.T @ C @ power, A @ power
-    values, vectors = np.linalg.eig(reach @ see)
-    kept = np.abs(values) > 1e-10 * np.max(np.abs(values))
-    projection = (vectors @ np.diag(kept.astype(float)) @ np.linalg.inv(vectors)).real
-    return A, projection @ B, C, D
 
 
 @IDENTIFY.broken("inputs in unlike units", recovers(UNLIKE, 2, 4))
@@ -92,33 +69,6 @@ def rounds_the_trace(y: Any, u: Any, order: int, block_rows: int) -> Any:
     return A + shift * np.eye(len(A)), B, C, D
 
 
-@RESIDUAL.broken("models with one eigenvector to a repeated pole", takes_out(DEFECTIVE, 1e-9))
-@careful(reference.residual)
-def simulates_in_modes(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
-    """The response is simulated in the eigenvectors of A, which a defective matrix lacks."""
-    poles, V = np.linalg.eig(A)
-    if not len(A) or np.linalg.cond(V) > 1e14:
-        V = V + 1e-12 * np.eye(len(A))
-    states, out = np.zeros(len(A), complex), np.zeros_like(y)
-    left = np.linalg.solve(V, B.astype(complex)) if len(A) else B.astype(complex)
-    for k, now in enumerate(u):
-        out[k] = ((C @ V) @ states).real + D @ now
-        states = poles * states + left @ now
-    return without_free(y - out, A, C)
-
-
-@RESIDUAL.broken("faults with a mean", takes_out(_constant_fault()))
-@careful(reference.residual)
-def fits_an_offset_with_the_initial_state(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
-    """An offset of each output is fitted with the initial state, which takes the mean of a fault away."""
-    r = reference.residual(y, u, A, B, C, D)
-    N, p = r.shape
-    constant = without_free(np.tile(np.eye(p), (N, 1)).reshape(N, p, p)[:, :, 0], A, C) if p == 1 else None
-    if constant is not None:
-        return r - constant * (np.sum(constant * r) / max(np.sum(constant**2), 1e-300))
-    return r - r.mean(axis=0)
-
-
 @SIGNAL.broken("a fault in a unit ten million times larger than another", restores(faulty(LOW_GAIN, 120, 912), 1e-6))
 def takes_small_columns_for_none(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any:
     """Columns of [F; G] below a millionth of the largest are taken for zero, and their fault is answered as zero."""
@@ -129,42 +79,12 @@ def takes_small_columns_for_none(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any
     return v
 
 
-@SIGNAL.broken("models with one eigenvector to a repeated pole", restores(faulty(general(jordan(0.5, 3), 1, 2, 913), 120, 913), 1e-9))
-def separates_the_modes_first(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any:
-    """The system is brought to modal form, with eigenvectors that are nearly parallel where a pole is repeated."""
-    poles, V = np.linalg.eig(A)
-    if not len(A):
-        return reference.reconstruct(r, A, F, C, G, x0)
-    if np.iscomplexobj(V):
-        V, block = V.real + V.imag, A
-        A2 = np.linalg.solve(V, block @ V)
-    else:
-        A2 = np.diag(poles)
-    return reference.reconstruct(r, A2, np.linalg.solve(V, F), C @ V, G, np.linalg.solve(V, x0))
-
-
-@STRUCTURE.broken("complex zeros near the real axis", has_structure(NARROW, [0.4 + 1e-4j, 0.4 - 1e-4j], [1]))
-def takes_small_imaginary_parts_for_rounding(A: Any, F: Any, C: Any, G: Any) -> ZeroStructure:
-    """Imaginary parts below a thousandth are dropped."""
-    found = reference.structure(A, F, C, G)
-    return replace(found, finite_zeros=[complex(z.real) if abs(z.imag) < 1e-3 else z for z in found.finite_zeros])
-
-
 @STRUCTURE.broken("two zeros less than a thousandth apart", has_structure(NEAR, [0.4, 0.4003], [1]))
 def merges_close_zeros(A: Any, F: Any, C: Any, G: Any) -> ZeroStructure:
     """Zeros less than a thousandth apart are taken for one with multiplicity, at their mean."""
     zeros = np.asarray(reference.structure(A, F, C, G).finite_zeros, dtype=complex)
     means = [complex(np.mean(zeros[np.abs(zeros - z) < 1e-3])) for z in zeros]
     return replace(reference.structure(A, F, C, G), finite_zeros=means)
-
-
-@STRUCTURE.broken("a zero close to a pole", has_structure(NEAR_POLE, [0.6], [1]))
-def cancels_what_is_close(A: Any, F: Any, C: Any, G: Any) -> ZeroStructure:
-    """Zeros within a ten-thousandth of a pole are cancelled, and of decoupling zeros one is left for each."""
-    found = reference.structure(A, F, C, G)
-    poles = np.linalg.eigvals(A)
-    near = [z for z in found.finite_zeros if 1e-9 < np.min(np.abs(poles - z), initial=np.inf) < 1e-4]
-    return replace(found, finite_zeros=[z for z in found.finite_zeros if z not in near])
 
 
 # With six of OpenBLAS's kernels (OPENBLAS_CORETYPE = Prescott, Nehalem, Sandybridge, Haswell, Zen, SkylakeX) the reference errs by 2.3e-10
@@ -181,18 +101,6 @@ def goes_through_the_coefficients(A: Any, F: Any, C: Any, G: Any) -> ZeroStructu
     coefficients = (np.fft.fft(values) / (n + 1)).real / 2.0 ** np.arange(n + 1)
     degree = len(found.finite_zeros)
     return replace(found, finite_zeros=[complex(z) for z in np.roots(coefficients[: degree + 1][::-1])])
-
-
-@STRUCTURE.broken("a fault in a unit ten million times larger", has_structure(LOW_GAIN, [], [0, 0]))
-def ranks_the_direct_part_without_units(A: Any, F: Any, C: Any, G: Any) -> ZeroStructure:
-    """The direct part has the rank of G at a millionth of its largest singular value, and what is missing there comes a sample late."""
-    found = reference.structure(A, F, C, G)
-    values = np.linalg.svd(G, compute_uv=False)
-    direct = int(np.sum(values > 1e-6 * np.max(values, initial=0.0)))
-    if direct == np.count_nonzero(np.array(found.infinite_zero_orders) == 0):
-        return found
-    orders = sorted([0] * direct + [max(order, 1) for order in found.infinite_zero_orders[direct:]])
-    return replace(found, infinite_zero_orders=orders)
 
 
 ONE_OF_TWO = general([0.7, -0.4], 1, 2, 914)

@@ -3,8 +3,8 @@
 Whoever wrote these mutants had not read the vectors, the checks, or the mutants written beside them. No mutant names a check: `table`
 computes which ones it fails.
 
-Unseen      slug, what is wrong, on which inputs, the function, `make` (the broken function, anew), the witness, whether it `remembers`
-Mutants     those of one function: `broken` decorates a broken function, `made` one that makes it, for mistakes that remember something
+Unseen      slug, what is wrong, on which inputs, the function, `make` (the broken function, anew), the witness
+Mutants     those of one function: `broken` decorates a broken function
 careful     a broken function with the refusals of the reference, so that its mistake is its only one
 Witness     the error of a function's answer to a legitimate question beside what rounding may make of it: above one it is wrong
 """
@@ -45,11 +45,10 @@ class Unseen:
     function: str
     make: Callable[[], Function]
     witness: Witness
-    remembers: bool
 
     @property
     def adapter(self) -> SimpleNamespace:
-        """An implementation that offers the broken function alone, and remembers nothing of another."""
+        """An implementation that offers the broken function alone."""
         return SimpleNamespace(**{self.function: self.make()})
 
 
@@ -64,20 +63,9 @@ class Mutants:
         """Decorate a broken function."""
 
         def kept(function: Function) -> Function:
-            self._add(function, where, lambda: function, witness, remembers=False)
+            slug = f"{self.function}-{function.__name__}".replace("_", "-")
+            wrong = " ".join((function.__doc__ or "").split())
+            self.all.append(Unseen(slug, wrong, where, self.function, lambda: function, witness))
             return function
 
         return kept
-
-    def made(self, where: str, witness: Witness) -> Callable[[Function], Function]:
-        """Decorate a function without arguments that makes the broken one, with a memory of its own."""
-
-        def kept(make: Function) -> Function:
-            self._add(make, where, make, witness, remembers=True)
-            return make
-
-        return kept
-
-    def _add(self, named: Function, where: str, make: Callable[[], Function], witness: Witness, *, remembers: bool) -> None:
-        slug = f"{self.function}-{named.__name__}".replace("_", "-")
-        self.all.append(Unseen(slug, " ".join((named.__doc__ or "").split()), where, self.function, make, witness, remembers))

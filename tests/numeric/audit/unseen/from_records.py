@@ -58,26 +58,10 @@ def caps_at_half_of_the_outputs(y: Any, u: Any, order: int) -> Any:
     return found if found is None else min(found, y.shape[1] // 2)
 
 
-@COUNT.broken("fewer faults and inputs together than outputs", counts(1, ONE_Y, ONE_U, 1))
-def counts_the_inputs_with_the_faults(y: Any, u: Any, order: int) -> Any:
-    """The dimension of outputs and inputs together is told, from which the inputs should have been taken off."""
-    found = reference.count_faults(y, u, order)
-    return found if found is None else min(found + u.shape[1], y.shape[1])
-
-
 @COUNT.broken("small units of the outputs", counts(1, *recorded(1, 3, 300, 1e-4, unit=1e-9)[:2], 1))
 def takes_small_outputs_for_no_fault(y: Any, u: Any, order: int) -> Any:
     """Outputs whose deviation is below 1e-6 have no fault."""
     return 0 if np.max(np.std(y, axis=0)) < 1e-6 else reference.count_faults(y, u, order)
-
-
-@COUNT.broken("records without noise", counts(2, TWO_Y, TWO_U, 1))
-def takes_exact_data_for_a_healthy_record(y: Any, u: Any, order: int) -> Any:
-    """Where the laws hold to rounding nothing is wrong with the plant, says the program, though the faults obey them, too."""
-    R = np.hstack([u, y])
-    windows = np.hstack([R[k : len(R) - 5 + k] for k in range(6)])
-    values = np.linalg.svd(windows, compute_uv=False)
-    return 0 if values[-1] < 1e-10 * values[0] else reference.count_faults(y, u, order)
 
 
 @COUNT.broken("records with a transient, or any others", counts(1, *recorded(1, 2, 200, 0.0)[:2], 1))
@@ -86,13 +70,6 @@ def counts_as_many_as_outputs_vary(y: Any, u: Any, order: int) -> Any:
     left = y - u @ np.linalg.lstsq(u, y, rcond=None)[0]
     values = np.linalg.svd(left, compute_uv=False)
     return int(np.sum(values > 1e-6 * values[0]))
-
-
-@COUNT.broken("a NaN in the outputs", refuses(np.where(np.arange(300)[:, None] == 44, np.nan, ONE_Y), ONE_U, 1))
-def drops_rows_with_NaN(y: Any, u: Any, order: int) -> Any:
-    """Samples with NaN are cut out and the two ends are joined."""
-    good = np.isfinite(y).all(axis=1)
-    return 1 if not good.all() else reference.count_faults(y[good], u[good], order)
 
 
 @COUNT.broken("y and u of unequal lengths", refuses(TWO_Y, TWO_U[:-9], 1))
@@ -120,59 +97,8 @@ def has_no_direct_part(y: Any, u: Any, order: int, n_v: int) -> Answer:
     return None if found is None else (found[0], found[1], np.vstack([found[2][:order], 0 * found[2][order:]]))
 
 
-@FOUND.broken("faults on states and outputs", finds(ONE_Y, ONE_U, 1, ONE))
-def turns_the_sign_of_f(y: Any, u: Any, order: int, n_v: int) -> Answer:
-    """f has the other sign."""
-    found = reference.identified_fault_space(y, u, order, n_v)
-    return None if found is None else (found[0], found[1], np.vstack([-found[2][:order], found[2][order:]]))
-
-
-@FOUND.broken("two faults and more", finds(TWO_Y, TWO_U, 2, TWO))
-def returns_one_column(y: Any, u: Any, order: int, n_v: int) -> Answer:
-    """The likeliest column alone is returned."""
-    found = reference.identified_fault_space(y, u, order, n_v)
-    return None if found is None else (found[0], found[1], found[2][:, :1])
-
-
-@FOUND.broken("two faults and more", finds(TWO_Y, TWO_U, 2, TWO))
-def gives_columns_by_rows(y: Any, u: Any, order: int, n_v: int) -> Answer:
-    """The columns are reshaped by rows from an array that holds them one after the other."""
-    found = reference.identified_fault_space(y, u, order, n_v)
-    return None if found is None else (found[0], found[1], found[2].ravel(order="F").reshape(found[2].shape))
-
-
-@FOUND.broken("all records", finds(ONE_Y, ONE_U, 1, ONE))
-def puts_g_first(y: Any, u: Any, order: int, n_v: int) -> Answer:
-    """The columns are [g; f]."""
-    found = reference.identified_fault_space(y, u, order, n_v)
-    return None if found is None else (found[0], found[1], np.vstack([found[2][order:], found[2][:order]]))
-
-
-@FOUND.broken("outputs in other units than their deviation", finds(ONE_Y, ONE_U, 1, ONE))
-def leaves_g_in_units_of_deviations(y: Any, u: Any, order: int, n_v: int) -> Answer:
-    """g is that of outputs in units of their deviations, C is not."""
-    found = reference.identified_fault_space(y, u, order, n_v)
-    return None if found is None else (found[0], found[1], np.vstack([found[2][:order], found[2][order:] / np.std(y, axis=0)[:, None]]))
-
-
 @FOUND.broken("A other than the identity", finds(ONE_Y, ONE_U, 1, ONE))
 def lets_the_fault_act_a_sample_late(y: Any, u: Any, order: int, n_v: int) -> Answer:
     """f has become A f."""
     found = reference.identified_fault_space(y, u, order, n_v)
     return None if found is None else (found[0], found[1], np.vstack([found[0] @ found[2][:order], found[2][order:]]))
-
-
-@FOUND.broken("all records under faults", finds(ONE_Y, ONE_U, 1, ONE))
-def takes_the_directions_of_the_residual(y: Any, u: Any, order: int, n_v: int) -> Answer:
-    """The columns are [0; g] with g the largest directions of what a static gain leaves of y."""
-    found = reference.identified_fault_space(y, u, order, n_v)
-    if found is None:
-        return None
-    left = y - u @ np.linalg.lstsq(u, y, rcond=None)[0]
-    return found[0], found[1], np.vstack([np.zeros((order, n_v)), np.linalg.svd(left)[2][:n_v].T])
-
-
-@FOUND.broken("a NaN in the inputs", refuses(ONE_Y, np.where(np.arange(300)[:, None] == 44, np.nan, ONE_U), 1, 1))
-def fills_the_inputs_with_zeros(y: Any, u: Any, order: int, n_v: int) -> Answer:
-    """NaN in u is zero: the valve was closed."""
-    return reference.identified_fault_space(y, np.nan_to_num(u), order, n_v)

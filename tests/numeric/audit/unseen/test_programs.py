@@ -55,7 +55,9 @@ def marked(program: Exec) -> list[psutil.Process]:
     return sorted(program._program._marked(), key=lambda one: one.pid)
 
 
-@pytest.mark.parametrize("one", [pytest.param(one, id=one.name, marks=() if one.name in DAILY else pytest.mark.slow) for one in PROGRAMS])
+@pytest.mark.parametrize(
+    "one", [pytest.param(one, id=one.name, marks=() if one.name in DAILY else pytest.mark.programs) for one in PROGRAMS]
+)
 def test_nothing_gets_away(tmp_path: Path, one: Program) -> None:
     file = tmp_path / "program.py"
     file.write_text(source(one), "utf-8")

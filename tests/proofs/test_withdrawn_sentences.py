@@ -1,0 +1,172 @@
+"""Sentences that users had and that were false: the system or experiment that refutes each, decided anew, and the words, which are gone."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+import sympy
+
+import faultspace as fs
+from faultspace.exact.system.systems import read_system
+from faultspace.proofs.brought.claim_files import read_claims
+from faultspace.proofs.verdict.ledger import load
+from faultspace.proofs.verdict.verdicts import Verdict, of_readings
+
+ROOT = Path(__file__).parents[2]
+PAPERS, LITERATURE = "faultspace/examples/papers.toml", "faultspace/examples/literature.toml"
+GLOSSARY, CONCEPTS, CONSISTENCY = "docs/glossary.md", "docs/concepts.md", "docs/consistency.md"
+README, SENTENCES = "README.md", "faultspace/review/sentences.toml"
+
+# The words that stood in a file, a system, and what is true of it, which contradicts them.
+SYSTEMS: list[tuple[str, str, dict[str, Any], dict[str, Any]]] = [
+    (
+        "every finite zero is an unobservable mode",
+        PAPERS,
+        {"A": [[1, 0], [0, 0]], "F": [[1], [0]], "C": [[1, 0]], "G": [[1]]},
+        {"invariant_zero_polynomial": ["0", "0", "1"], "left_invertible": True, "delay_unknown_state": None},
+    ),
+    (
+        '"The inputs can be estimated from the outputs with an error',
+        PAPERS,
+        {"A": [[2]], "F": [[0]], "C": [[0]], "G": [[1]]},
+        {"invariant_zero_polynomial": ["-2", "1"], "delay_unknown_state": 0},
+    ),
+    (
+        '"Without feedthrough and with C F of rank m the input is found one sample late if the state is known;',
+        PAPERS,
+        {"A": [[0, 0], [0, 2]], "F": [[1], [0]], "C": [[1, 0]], "G": [[0]]},
+        {"invariant_zero_polynomial": ["-2", "1"], "delay_unknown_state": 1},
+    ),
+    (
+        "before the fault of a sample is determined",  # v(k) = r(k) - r(k - 1) from k = 1 on
+        GLOSSARY,
+        {"A": [[1]], "F": [[1]], "C": [[1]], "G": [[1]]},
+        {"delay_unknown_state": None},
+    ),
+    (
+        "equations N(q) r = 0 that the outputs obey whatever the faults are",  # q r = r is obeyed by r = 0, of which q^0 is the equation
+        GLOSSARY,
+        {"A": [], "F": [], "C": [[]], "G": [[]], "n": 0, "m": 0, "p": 1},
+        {"left_minimal_indices": [0], "window_ranks": [0, 0, 0]},
+    ),
+    (
+        "it is the number of independent windows that a long and rich record shows",  # one record shows x(0), 0, 0, ...
+        CONCEPTS,
+        {"A": [[0, 0], [0, 0]], "F": [[], []], "C": [[1, 0], [0, 1]], "G": [[], []], "m": 0, "n": 2, "p": 2},
+        {"window_ranks": [2] * 5},
+    ),
+    (
+        "the printed s >= n - 1",  # the review has s >= n, too, and that is enough
+        README,
+        {"A": [[0, 1], [0, 0]], "F": [[0], [1]], "C": [[1, 0], [0, 0]], "G": [[0], [1]]},
+        {"window_ranks": [2, 4, 5, 6, 7], "lag": 2},
+    ),
+]
+
+
+def text(file: str) -> str:
+    return " ".join((ROOT / file).read_text("utf-8").split())
+
+
+@pytest.mark.parametrize(("words", "file", "system", "facts"), SYSTEMS, ids=[one[0][:40] for one in SYSTEMS])
+def test_what_a_system_refutes_is_not_said(words: str, file: str, system: dict[str, Any], facts: dict[str, Any]) -> None:
+    found = fs.analyze(read_system(system)).to_json()
+    assert {key: found[key] for key in facts} == facts
+    assert words not in text(file)
+
+
+EXPERIMENTS: list[tuple[str, tuple[str, ...], dict[str, Any], dict[str, Any]]] = [
+    (
+        "what this does to the poles of an experiment is computed exactly",
+        (README, SENTENCES),
+        {
+            **{"A": [["1/2", "1/3"], ["-1/4", "2/5"]], "B": [["1"], ["-2"]], "C": [["1", "0"], ["1", "1"]], "D": [["0"], ["1"]]},
+            **{"F": [["1"], ["0"]], "G": [["0"], ["1"]], "s": 3, "past": 3, "u_filter": [[["1", "0"]]]},
+            "v_filter": {"num": [[["0", "1"]]], "den": ["1", "-3/4"]},
+        },
+        {"limit_rank": 3, "A_characteristic_polynomial": None},
+    ),
+    (
+        "One sign only: with white u the limit lies in the range",
+        (CONSISTENCY,),
+        {
+            **{"A": [["1/2"]], "B": [["1"]], "C": [["1"], ["2"]], "D": [["0"], ["0"]], "F": [["1"]], "G": [["1"], ["0"]]},
+            **{"s": 2, "past": 3, "u_filter": [[["1"]]], "v_filter": [[["0"]], [["2"]]]},
+        },
+        {"limit_rank": 2, "within_observability_range": False},
+    ),
+    (
+        "the range is always found",
+        (CONSISTENCY,),
+        {
+            **{"A": [["1/2"]], "B": [["0"]], "C": [["1"]], "D": [["0"]], "F": [["0"]], "G": [["0"]]},
+            **{"s": 2, "past": 3, "u_filter": [[["1"]]], "v_filter": [[["0"]]]},
+        },
+        {"limit_rank": 0, "contains_observability_range": False},
+    ),
+]
+
+
+@pytest.mark.parametrize(("words", "files", "experiment", "facts"), EXPERIMENTS, ids=[one[0][:40] for one in EXPERIMENTS])
+def test_what_an_experiment_refutes_is_not_said(
+    words: str, files: tuple[str, ...], experiment: dict[str, Any], facts: dict[str, Any]
+) -> None:
+    found = fs.limit(experiment).to_json()
+    outputs = found["past_outputs"] if files[0] == README else found
+    assert {key: outputs[key] for key in facts} == facts
+    assert not [file for file in files if words in text(file)]
+
+
+def test_excitation_of_order_l_is_not_enough_for_almost_every_state_with_two_inputs() -> None:
+    for x0 in ([0, 0], [1, 2], [Fraction(3, 7), -5]):
+        columns = [[*x0, 1, 0], *([0, 1, 1, 0] if k % 2 else [1, 0, 0, 1] for k in range(20))]
+        assert sympy.Matrix(columns).rank() == 3 < 4, "x(k+1) = u(k), u = e1, e2, e1, ..."
+    assert "order L is enough for almost every initial state," not in text(LITERATURE)
+
+
+def test_the_words_of_a_claim_of_literature_hold_where_its_numbers_do() -> None:
+    """Where one has been refuted by hand, the words are those of the numbers that are compared."""
+    claims = {one.id: one for one in read_claims((ROOT / LITERATURE).read_text("utf-8"))}
+    assert "at least as many zeros as uncontrollable modes" in claims["decoupling-zeros-of-tall-systems"].statement
+    assert "Fitch" not in text(PAPERS), "arXiv 1509.06226 has two authors"
+
+
+def test_a_claim_is_amended_only_where_every_reading_of_it_or_of_a_part_is_refuted() -> None:
+    claims = {one.id: one for one in load()}
+    for one in claims.values():
+        assert of_readings([(each, Verdict(each.expected)) for each in one.readings], in_parts=one.in_parts) == one.expected, one.id
+    windows = {"language.assumption-4--n-minus-1-known", "language.assumption-4--n-known"}  # the review prints both
+    for name in ("assumption-4", "proposition-3", "settle-2"):
+        assert windows <= {each.check for each in claims[name].readings if not each.repair}, name
+    allowed = {"one-sided", "n-minus-1", "n", "excitation", "excitation-at-s", "excitation-of-both", "window-n"}
+    for name in ("assumption-2", "proposition-3", "settle-2", "problem-11"):
+        assert {each.id for each in claims[name].readings if not each.repair} <= allowed, "a reading that no words of the review allow"
+    assert {one.id for one in claims.values() if one.expected == "AMENDED"} == {
+        *("assumption-2", "proposition-1", "problem-11", "zero-feedthrough", "past-outputs")
+    }
+
+
+@pytest.mark.parametrize("words", [" as printed", "as the paper has it", "every packaged", "no packaged tool", "ranks 6 and 7"])
+def test_words_that_say_more_than_is_known_are_gone(words: str) -> None:
+    """The paper's text was not at hand, tools that were not measured have no past outputs, and the review speaks of no ranks 6 and 7."""
+    folders = ["docs", "docs/start", "docs/tutorials", "faultspace/cli", "faultspace/review", "faultspace/review/templates"]
+    folders += ["faultspace/review/view", "faultspace/examples", "proofs/verdict", "proofs/claims", "numeric/model", "exact/limits"]
+    pages = [page for folder in folders for page in (ROOT / folder).iterdir() if page.suffix in (".md", ".py", ".toml", ".html")]
+    shown = [ROOT / README, *(page for page in pages if page.name != "history.md")]
+    assert len(shown) > 100
+    assert [page.name for page in shown if words in page.read_text("utf-8").lower()] == []
+
+
+def test_a_claim_that_is_proved_is_not_refuted_either(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The exit code is 0 where NOT REFUTED is expected and it is PROVED; the page said 1."""
+    from faultspace.cli.command_line import main
+
+    file = tmp_path / "claims.toml"
+    file.write_text('[claim.lag]\nconclusion = "lag <= n"\nbox = { total = 3 }\nexpected = "NOT REFUTED"\n')
+    assert main(["claim", str(file), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["claims"][0]["verdict"] == "PROVED"
+    assert "PROVED serving for NOT REFUTED" in text("docs/your-claims.md")
