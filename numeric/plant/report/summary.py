@@ -106,12 +106,10 @@ def summary(answer: Answer, data: str, *, worded: Callable[[str], str] = str) ->
         yield from isolation_lines(answer)
         yield from _signal_lines(answer)
     if answer.doubts:
-        yield ""
-        yield "## Doubts"
+        yield from ("", "## Doubts")
         yield from (f"- {worded(row.line)}" for row in answer.doubts)
     if answer.notes:
-        yield ""
-        yield "## Notes"
+        yield from ("", "## Notes")
         yield from (f"- {worded(note)}" for note in answer.notes)
     yield ""
     yield "## What to try next"
@@ -121,8 +119,8 @@ def summary(answer: Answer, data: str, *, worded: Callable[[str], str] = str) ->
 def _told_of_laws(answer: Answer) -> bool:
     """Say whether the reasons of the count speak of laws, or rows."""
     ranks, broken = answer.dimension, any(reason.code == Because.LAWS_BROKEN for reason in answer.because)
-    asked = answer.count is not None and bool(answer.count.tests)
-    return asked or broken or (ranks is not None and (ranks.regime == "noise" or ranks.gaps[-1:] == (0,)))
+    asked = bool(answer.count and answer.count.tests) or broken
+    return asked or (ranks is not None and (ranks.regime == "noise" or ranks.gaps[-1:] == (0,)))
 
 
 def operating_point_line(answer: Answer) -> str:
