@@ -13,7 +13,7 @@ ShiftCause        one row
 
     d, V      the shift (p,) and its covariance, estimated with so many degrees of freedom B where it is of `mean_shift`
     c, S      the direction of a cause and the covariance of its errors: zero for a sensor, of an actuator that of G(1)_j by the standard
-              errors of the model (delta method, [VV07, ch. 4])
+              errors of the model (delta method, [L99])
     T         min over a of (d - a c)' (V + a^2 S)^-1 (d - a c), the likelihood ratio of a collinear pair d, c [MN89]; a is on a grid of
               angles, then polished. Where S = 0 it is (N' d)' (N' V N)^-1 N' d with N across c
     chance    T is Hotelling's statistic of p - 1 outputs with B degrees of freedom [H31], chi-squared where V is known; V + a^2 S has more
