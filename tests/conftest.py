@@ -5,8 +5,9 @@ explore     fresh examples and no clock, for looking further: `pytest --hypothes
 
 Where tests run in several processes, each begins with a stretch of them in the order of the files, so that what the tests of a file share
 is made in one process, and takes half of what another has left when it has done its own. Tests marked `long` come first, so that no
-process is left with one at the end. The Rocq theory is compiled before they start (once, then it is in the user's cache), so that no test
-waits for another's compilation. The linear algebra library gets one thread a process: on small matrices threads mostly wait for each other.
+process is left with one at the end. Where tests that start other programs are among them, the Rocq theory is compiled before they start
+(once, then it is in the user's cache), so that no test waits for another's compilation. The linear algebra library gets one thread a
+process: on small matrices threads mostly wait for each other.
 A test marked `slow` has an hour where it names no other time, for what takes minutes takes many more on a busy machine. Bytecode is kept,
 in the folders `__pycache__` that git ignores, even where PYTHONDONTWRITEBYTECODE asks for none: without it each process of tests compiles
 all tests again, and each command that a test starts all modules of ours.
@@ -53,8 +54,9 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:
-    """The theory is compiled once, in the process that starts the others."""
-    if getattr(session.config.option, "numprocesses", None):
+    """The theory is compiled once, in the process that starts the others, where a test may ask for it."""
+    options = session.config.option
+    if getattr(options, "numprocesses", None) and "not programs" not in options.markexpr:
         from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, compiled_theory
 
         with contextlib.suppress(BrokenTheory, NoRocq):  # the tests tell

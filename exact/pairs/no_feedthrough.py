@@ -15,7 +15,7 @@ with N the unobservable subspace of (A, C), o = dim N. The second holds with the
 zero of its own is left to hide v. Where a condition fails, another good F' exists over every field: with c in U outside im F (+ N),
 exchange the first column f of F for c or for f + c; D is linear in that column, so that not both give 0. The fault v' that goes with an
 F' outside im F + N is v filtered, not v in another basis. For one given F: v is determined from the known initial state always, from an
-unknown one iff all finite zeros are unobservable modes. Source: [G25] section V, [M73] and [TSH01] for V* and S*, [HP98] for recovery.
+unknown one iff all finite zeros are unobservable modes. Source: [G25], [M73] and [TSH01] for V* and S*, [HP98] for recovery.
 """
 
 from __future__ import annotations
@@ -131,7 +131,7 @@ def zero_feedthrough(kernel: KernelRepresentation | System) -> ZeroFeedthrough:
 
     `kernel` is a left-invertible System with G = 0, or its KernelRepresentation. The ZeroFeedthrough has `pins_F` (whether F is known up to
     a basis), `pins_v`, `ambiguity`, a number of dimensions, an `alternative` F' of another column space where there is one, and both delays
-    in samples. Source: [G25] section V, [M73] and [TSH01] for the subspaces, [HP98] for recovery.
+    in samples. Source: [G25], [M73] and [TSH01] for the subspaces, [HP98] for recovery.
 
     Raises InvalidInput unless G = 0 and the system is left-invertible.
 

@@ -39,7 +39,7 @@ from ...base.progress import Progress, silent
 from ...base.sheets import counted
 from ..trust import checker
 from .build import CLOSED, BrokenTheory, NotProved, compile_file, compiled_theory, kept_theory
-from .export import HEAD, MODULES, exported, written
+from .export import HEAD, MODULES, PROOFS, exported, written
 from .listed import NotCovered
 from .locks import held
 from .sources import needs, sources
@@ -100,7 +100,7 @@ def theory(progress: Progress = silent) -> Path:
 def decided(terms: Sequence[Terms], compiled: Path, seconds: float = SECONDS) -> list[bool]:
     """Returns what the boolean check of each computes to. Raises BrokenTheory, also when it takes longer."""
     parts = [f"Module C{i}.\n{t.opening()}\nEval vm_compute in {t.check}.\nEnd C{i}.\n" for i, t in enumerate(terms)]
-    said = compile_file(compiled, "Recomputed.v", HEAD + "".join(parts), seconds=seconds)
+    said = compile_file(compiled, "Recomputed.v", HEAD + PROOFS + "".join(parts), seconds=seconds)
     verdicts = [word == "true" for word in re.findall(r"= (true|false)\s+: bool", said)]
     if len(verdicts) != len(terms):
         raise BrokenTheory(f"Rocq gave {counted(len(verdicts), 'answer')} to {counted(len(terms), 'check')}")

@@ -30,7 +30,7 @@ from faultspace.numeric.method.signal.reconstruction import reconstruct_fault
 from faultspace.numeric.method.signal.residual_sizes import PART, loudest, residual_sizes
 from faultspace.numeric.method.signal.smoother import smoothed
 from faultspace.numeric.plant import pipeline as identifying
-from faultspace.numeric.plant.steps import counting
+from faultspace.numeric.plant.steps import explaining
 from tests.end_to_end.commands import ROOT, environment
 from tests.end_to_end.identify_runs import CHANNELS
 from tests.thorough import THOROUGH
@@ -158,7 +158,7 @@ def test_a_late_fault_is_counted_and_the_stretch_is_reported(monkeypatch: pytest
     v[begins : begins + lasts] = draw.standard_normal((lasts, 1))
     driven = StateSpaceModel(made.A, np.hstack([made.B, made.F]), made.C, np.hstack([made.D, made.G]))
     y = driven.simulate(np.hstack([u, v])) + 0.02 * draw.standard_normal((samples, 3))
-    monkeypatch.setattr(counting, "HELD", 5 * lasts)
+    monkeypatch.setattr(explaining, "HELD", 5 * lasts)
     monkeypatch.setattr(sizes_of_residuals, "PART", part)
     answer = identifying.identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3)
     first, last = answer.held
@@ -176,11 +176,11 @@ SCRIPT = """
 import contextlib, sys
 from pathlib import Path
 from faultspace.cli import command_line
-from faultspace.numeric import counting
+from faultspace.numeric.plant.steps import explaining
 from faultspace.numeric.data import records
 from faultspace.numeric.plant.monitor import monitoring
 from faultspace.numeric.method.signal import reconstruction
-counting.HELD, records.IN_MEMORY, reconstruction.LONGEST, monitoring.NUMBERS = 1 << 15, {in_memory}, 1 << 13, 1 << 20
+explaining.HELD, records.IN_MEMORY, reconstruction.LONGEST, monitoring.NUMBERS = 1 << 15, {in_memory}, 1 << 13, 1 << 20
 with contextlib.suppress(ImportError):
     from matplotlib.figure import Figure
     Figure.savefig = lambda figure, file, **options: file.write(b"not rendered")

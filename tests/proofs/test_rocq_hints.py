@@ -13,7 +13,7 @@ from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.rocq import build as rocq_build
 from faultspace.proofs.rocq.build import compile_file
-from faultspace.proofs.rocq.export import HEAD, translated
+from faultspace.proofs.rocq.export import HEAD, PROOFS, translated
 from faultspace.proofs.rocq.listed import NotCovered
 from faultspace.proofs.rocq.recompute import theory
 from faultspace.proofs.rocq.sources import sources
@@ -103,7 +103,7 @@ def asked(terms: Terms) -> str:
 def evaluated(parts: list[str]) -> list[bool]:
     """Returns what the kernel answers to each part."""
     text = "".join(f"Module C{i}.\n{part}End C{i}.\n" for i, part in enumerate(parts))
-    return [word == "true" for word in re.findall(r"= (true|false)\s+: bool", compile_file(theory(), "Evaluated.v", HEAD + text))]
+    return [word == "true" for word in re.findall(r"= (true|false)\s+: bool", compile_file(theory(), "Evaluated.v", HEAD + PROOFS + text))]
 
 
 @dataclass

@@ -183,7 +183,7 @@ def test_a_check_that_several_readings_share_is_run_once(monkeypatch: pytest.Mon
     "found, opposite", [(Verdict.REFUTED, Verdict.CERTIFIED), (Verdict.CERTIFIED, Verdict.REFUTED), (Verdict.ERROR, Verdict.ERROR)]
 )
 def test_a_counterexample_witnesses_the_opposite_and_an_error_stays_one(found: Verdict, opposite: Verdict) -> None:
-    outcome = workbench.witnessed(Outcome(found, "evidence", (), 3))
+    outcome = workbench.witnessed(Outcome(found, "evidence", (), frozenset("abc")))
     assert outcome.verdict == opposite and "evidence" in outcome.evidence and outcome.accepted == 3
 
 
