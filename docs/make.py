@@ -11,7 +11,10 @@ from tools.pages import write
 from tools.tables import fill
 
 if __name__ == "__main__":
-    if len(sys.argv) > 1:
-        write(Path(sys.argv[1]))
+    arguments = sys.argv[1:]
+    if len(arguments) > 1 or any(one.startswith("-") for one in arguments):
+        sys.exit(__doc__)
+    if arguments:
+        write(Path(arguments[0]))
     else:
         fill()

@@ -38,7 +38,7 @@ CLAIMS = {
     "pairs": "claims about two systems, with the same A and C or not: how many samples tell them apart",
     "choices": "claims about other fault columns for the same system: which of them make the same outputs",
     "records": "claims about a system with inputs and the data that it made: what a signal has to excite",
-    "ledger": "the paper's claims about single systems, in the language of claims, with the verdicts of `faultspace verify`",
+    "ledger": "the paper's claims that the language of claims can say, with the verdicts of `faultspace verify`",
 }
 
 

@@ -1,4 +1,4 @@
-"""Claims, verdicts and certificates: what the paper states, what is true of it, and what proves it.
+"""Claims, verdicts and certificates: what the review states of the paper, what is true of it, and what proves it.
 
 A verdict is computed by a run, never stored by hand. The certificates are decided by `trust/checker.py`, which imports nothing but Python's
 standard library; their format is `trust/FORMAT.md`. Everything else here may import `faultspace.exact`, and modules with `cross` in their

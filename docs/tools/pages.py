@@ -6,6 +6,7 @@ write     all of them into a folder, which is build/pages for the site
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 from faultspace.proofs.rocq.locks import kept
@@ -20,7 +21,7 @@ def statements() -> str:
     return page(kept(), load())
 
 
-PAGES = {"paper-to-proof.md": paper_to_proof.page, "statements.md": statements}
+PAGES: dict[str, Callable[[], str]] = {"paper-to-proof.md": paper_to_proof.page, "statements.md": statements}
 
 
 def write(folder: Path) -> None:

@@ -15,7 +15,7 @@ with N the unobservable subspace of (A, C), o = dim N. The second holds with the
 zero of its own is left to hide v. Where a condition fails, another good F' exists over every field: with c in U outside im F (+ N),
 exchange the first column f of F for c or for f + c; D is linear in that column, so that not both give 0. The fault v' that goes with an
 F' outside im F + N is v filtered, not v in another basis. For one given F: v is determined from the known initial state always, from an
-unknown one iff all finite zeros are unobservable modes. Source: [G25] section V, [M73] and [TSH01] for V* and S*, [HP98] for recovery.
+unknown one iff all finite zeros are unobservable modes. Source: [G25], [M73] and [TSH01] for V* and S*, [HP98] for recovery.
 """
 
 from __future__ import annotations
@@ -129,7 +129,7 @@ class ZeroFeedthrough(Shown):
 def zero_feedthrough(kernel: KernelRepresentation | System) -> ZeroFeedthrough:
     """Return how far the knowledge that G = 0 pins the fault matrix F (n x m), and with it the fault signal.
 
-    Source: [G25] section V, [M73] and [TSH01] for the subspaces, [HP98] for recovery.
+    Source: [G25], [M73] and [TSH01] for the subspaces, [HP98] for recovery.
 
     Parameters
     ----------

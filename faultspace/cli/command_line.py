@@ -200,8 +200,8 @@ def claim(
 ) -> int:
     """Decide claims of your own about systems.
 
-    Each is refuted by the smallest counterexample of its box, with certificates, or not refuted, or vacuous; docs/your-claims.md tells the
-    language. Exit 1 where a claim names the verdict that it expects and gets another one.
+    Each is refuted by a counterexample, the smallest of its box where that has one, proved, not refuted, or vacuous. The page
+    docs/your-claims.md tells the language. Exit 1 where a claim names the verdict that it expects and gets another one.
     """
     from . import claiming
 

@@ -434,7 +434,7 @@ def _axes(ax: Any) -> Any:
     return pyplot.subplots(figsize=(7, 4.2), layout="constrained")[1]
 
 
-def finished(ax: Any, *, legend: bool, place: str = "best", outside: bool = False, below: bool = False) -> Any:
+def finished(ax: Any, *, legend: bool, outside: bool = False, below: bool = False) -> Any:
     """Give the axes the grid, the sides and the legend that all pictures have, and return them."""
     ax.grid(True, color="#dddddd", linewidth=0.6, zorder=0)
     ax.set_axisbelow(True)
@@ -447,7 +447,7 @@ def finished(ax: Any, *, legend: bool, place: str = "best", outside: bool = Fals
     elif legend and below:  # where the picture fills its square
         ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=2, frameon=False, fontsize=9)
     elif legend:
-        ax.legend(loc=place, frameon=True, framealpha=0.9, edgecolor="none", fontsize=9)
+        ax.legend(loc="best", frameon=True, framealpha=0.9, edgecolor="none", fontsize=9)
     return ax
 
 

@@ -14,18 +14,18 @@ from typing import Any
 from ...base.errors import InvalidInput, quote_path
 from ...base.progress import silent
 from ...base.threads import one_thread
-from .steps.findings import Findings
+from .steps.findings import Answer
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Identification(Findings):
+class Identification(Answer):
     """This is what `identify` found. A field is None where it was not asked for, because of what came before.
 
     model            the MoespModel: A (n, n), B (n, n_u), C (p, n), D (p, n_u), x0 (n,), residual_covariance (p, p); None where the order
                      stays open, for which singular_values tell the choices
     residual         r (N, p) in units of y, with x0 and its covariance; `sizes` of its channels
     n_v, reason      the number of faults, None where it is undecided, and why; n_v_given: the caller stated it; counted_by: what it rests
-                     on, of COUNTED_BY; `at_least` faults act in any case
+                     on, a CountedBy; because: the reasons as codes with their numbers; `at_least` faults act in any case
     fault_space      the columns [f; g] that explain the residual: basis (n + p, n_z), orthonormal, and how sure it is
     onset            the samples from which on the residual is another one, with intervals, outputs and sizes in sigmas
     isolation        which single sensor or actuator lies in the fault space

@@ -33,7 +33,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...base.arrays import Array
 from ...base.errors import InvalidData, shorten
 from ...base.progress import Progress, silent
 from ...base.sheets import counted
@@ -42,16 +41,20 @@ from ..data.joining import healthy_from, joined, one_record
 from ..data.records import Record
 from ..data.sources import Source
 from ..data.validation import noise_deviations, whole
-from ..method.signal.residual_sizes import residual_sizes
+from ..method.model.moesp_model import MoespModel
+from ..method.model.reduced_model import ReducedModel
 from .answer import Identification
+from .answering import Told, answered, left_open
 from .doubt.asking import doubts
-from .steps.causes import with_isolation, with_onset, with_shift
-from .steps.choice import ROUNDING, largest, with_signal, with_space
-from .steps.counting import with_count
-from .steps.findings import Findings
+from .steps.causes import causes_of, onset_in
+from .steps.choice import ROUNDING, largest, no_signals, signals_of, space_of
+from .steps.counting import counted_faults
+from .steps.explaining import explained, long_enough
+from .steps.findings import Because, Begun, Causes, Count, Counted, CountedBy, Explained, Measured, Modelled, Reason, Space
 from .steps.modelling import modelled, window_default
 from .steps.operating_point import asked_for, with_operating_point
-from .steps.several_experiments import completed, for_each, long_enough, residual_by_experiment, with_parts
+
+NOTHING = "nothing of the system"
 
 
 @one_thread()
@@ -127,13 +130,43 @@ def identify(
         before = healthy_from(healthy, record, on_progress)
         record, until = joined(before, record), len(before)
     level = None if noise_level is None else noise_deviations(noise_level, record.p)
-    found = _findings(record, order, block_rows, n_v, until, counted_healthy is None, level, asked, on_progress)
-    part = found.record if until is None else found.record.beginning(until)
-    raised = doubts(part, found.model, dt=dt, means_removed=found.means_removed)
-    if dt is None and record.clock is not None:
-        dt = record.clock.dt
-    known = {"dt": dt, "doubts": raised}
-    return Identification(**vars(found) | known | {"parts": tuple(Identification(**vars(one) | known) for one in found.parts)})
+    _in_range(record)
+    rows = window_default(until or len(record), record.p, record.n_u, order) if block_rows is None else block_rows
+    record, notes = long_enough(record, rows)
+    _judged(record if until is None else record.beginning(until), rows, until)
+    measured = Measured(*with_operating_point(record, until, asked), until, until is not None and counted_healthy is None, level)
+    made = modelled(measured.part, order, block_rows, on_progress)
+    if level is not None and until is not None:
+        notes += ("noise_level is not used: the healthy samples show the noise themselves",)
+    raised = doubts(measured.part, made.model, dt=dt, means_removed=measured.means_removed)
+    told = Told(order is not None, n_v is not None, record.clock.dt if dt is None and record.clock else dt, raised, notes)
+    return left_open(measured, made, told) if made.model is None else _beside_model(measured, made, made.model, told, n_v, on_progress)
+
+
+def _beside_model(
+    measured: Measured, made: Modelled, model: MoespModel | ReducedModel, told: Told, n_v: int | None, on_progress: Progress
+) -> Identification:
+    """Go on from the model as the head of this module tells."""
+    plant = explained(measured, model, made.exact, made.window, on_progress)
+    if np.all(plant.sizes.peak <= ROUNDING * largest(plant.record)):
+        nothing = Counted(Count(0, (), CountedBy.MODEL, (_nothing_left(plant),)), (0, 0))
+        onsets, causes = [Begun(None)] * len(plant.experiments), Causes(None, (None,) * len(plant.experiments))
+        return answered(plant, made, replace(told, n_v_given=False), onsets, nothing, Space(None), causes, no_signals(plant))
+    onsets = [onset_in(one, on_progress) for one in plant.experiments]
+    found = counted_faults(plant, None if plant.parts else onsets[0].onset, n_v, on_progress)
+    plant = replace(plant, held=found.held)
+    space = space_of(plant, found, on_progress)
+    causes = causes_of(plant, found, space, onsets)
+    signals = signals_of(plant, found.count.n_v, space.estimate, on_progress)
+    return answered(plant, made, told, onsets, found, space, causes, signals)
+
+
+def _nothing_left(plant: Explained) -> Reason:
+    hidden = None if plant.healthy is not None else "means" if plant.means_removed else "inputs"
+    return Reason(
+        Because.EXPLAINED,
+        {"outputs": list(plant.record.outputs), "sizes": (ROUNDING * largest(plant.record)).tolist(), "constant_hidden_by": hidden},
+    )
 
 
 def _is_record(healthy: Any) -> bool:
@@ -165,63 +198,6 @@ def _seconds(dt: float | None) -> float | None:
     raise InvalidData(f"dt: got {shorten(dt)}; the seconds from sample to sample are needed, or None where they are not known")
 
 
-def _findings(
-    record: Record,
-    order: int | None,
-    block_rows: int | None,
-    n_v: int | None,
-    healthy: int | None,
-    apart: bool,
-    noise_level: Array | None,
-    operating_point: str | None,
-    on_progress: Progress,
-) -> Findings:
-    """Go through the chain of the module's docstring; `apart`: the `healthy` samples are a record of their own, before the other."""
-    part = record if healthy is None else record.beginning(healthy)
-    _in_range(record)
-    rows = block_rows if block_rows is not None else window_default(len(part), record.p, record.n_u, order)
-    record, left_out = long_enough(record, rows)
-    part = record if healthy is None else record.beginning(healthy)
-    try:
-        _enough(part, rows)
-        _varying(part)
-    except InvalidData as error:
-        raise error if healthy is None else InvalidData(f"healthy: the model is from these samples alone: {error}") from None
-    notes = left_out
-    record, point = with_operating_point(record, healthy, operating_point)
-    part = record if healthy is None else record.beginning(healthy)
-    found = modelled(part, order, block_rows, on_progress)
-    if noise_level is not None and healthy is not None:
-        notes += ("noise_level is not used: the healthy samples show the noise themselves",)
-    answer = Findings(record, found.window, point, order is not None, found.singular_values, found.model, found.exact, found.way)
-    answer = replace(answer, n_v_given=n_v is not None, healthy=healthy, noise_level=noise_level, notes=notes + found.notes)
-    answer = replace(answer, healthy_record=apart and healthy is not None)
-    if found.model is None:
-        return replace(answer, notes=(*answer.notes, f"the order is undecided: {found.refusal}"))
-    with np.errstate(over="ignore", invalid="ignore"):  # outliers beyond all numbers are told by what they leave
-        rest, each = residual_by_experiment(record, found.model, len(part), on_progress)
-    sizes = residual_sizes(rest.store, len(part))
-    answer = with_parts(replace(answer, residual=rest, sizes=sizes, notes=(*answer.notes, *rest.notes)), each)
-    if np.all(sizes.peak <= ROUNDING * largest(record)):
-        return completed(replace(answer, n_v=0, n_v_given=False, reason=_nothing_left(answer), counted_by="model"))
-    answer = with_count(for_each(answer, lambda one: with_onset(one, on_progress)), n_v, on_progress)
-    answer = completed(with_isolation(with_space(answer, on_progress)))
-    return with_signal(for_each(answer, with_shift), on_progress)
-
-
-def _nothing_left(answer: Findings) -> str:
-    least = ROUNDING * largest(answer.record)
-    sizes = ", ".join(f"{shorten(name)} {size:.2g}" for name, size in zip(answer.record.outputs, least, strict=True))
-    hidden = ""
-    if answer.healthy is None:
-        hidden = (
-            "; a fault that is constant over the whole record went with the means"
-            if answer.means_removed
-            else "; a fault that is constant over the whole record can pass for the response to the mean of the inputs"
-        )
-    return f"the model explains the outputs to rounding: nothing larger than {sizes} acts{hidden}"
-
-
 def _in_range(record: Record) -> None:
     """Refuse channels whose squares floats do not hold: too large for a sum, or so small that their digits are lost."""
     limits = np.finfo(np.float64)
@@ -231,6 +207,15 @@ def _in_range(record: Record) -> None:
             raise InvalidData(f"channel {shorten(name)} reaches {size:.3g}, whose square no float holds: use other units, or mend a slip")
         if 0.0 < high - low < np.sqrt(limits.tiny):
             raise InvalidData(f"channel {shorten(name)} varies by {high - low:.3g}, whose square no float holds: use other units")
+
+
+def _judged(part: Record, rows: int, healthy: int | None) -> None:
+    """Refuse a record, or its healthy samples, from which no model can be had."""
+    try:
+        _enough(part, rows)
+        _varying(part)
+    except InvalidData as error:
+        raise error if healthy is None else InvalidData(f"healthy: the model is from these samples alone: {error}") from None
 
 
 def _enough(record: Record, rows: int) -> None:
@@ -255,9 +240,8 @@ def _varying(record: Record) -> None:
         least, greatest = (values[start : start + len(names)] for values in (record.channels.least, record.channels.greatest))
         still = [name for name, low, high in zip(names, least, greatest, strict=True) if low == high]
         if still and len(record) > 1:
-            what = "excites nothing" if kind == "input" else "tells nothing of the system"
+            one, several = ("excites nothing", "excite nothing") if kind == "input" else (f"tells {NOTHING}", f"tell {NOTHING}")
             which, value = ", ".join(map(shorten, still[:4])), least[names.index(still[0])]
             if len(still) > 1:
-                what = what.replace("excites", "excite").replace("tells", "tell")
-                raise InvalidData(f"{kind}s {which} are constant: they {what}; leave them out, or record them while they vary")
-            raise InvalidData(f"{kind} {which} is constant ({value:g}): it {what}; leave it out, or record it while it varies")
+                raise InvalidData(f"{kind}s {which} are constant: they {several}; leave them out, or record them while they vary")
+            raise InvalidData(f"{kind} {which} is constant ({value:g}): it {one}; leave it out, or record it while it varies")

@@ -136,7 +136,7 @@ def _smallest(bench: Workbench, dropped: Sequence[str]) -> Found[Pair]:
             for s in range(1 if "s >= lag + 1" in dropped else kernel.lag + 1, kernel.lag + 2):
                 space = fault_space(kernel, s)
                 for P in matrices_in_order(space.dimension, system.m):
-                    pair = Pair(system, with_pair(space, P), s, False, 1, 0)
+                    pair = Pair(system, with_pair(space, P), s, False, 1, frozenset())
                     if bool(pair.degenerate) == poor and all(test(pair) for test in kept) and _differs(pair):
                         yield pair
 

@@ -214,7 +214,7 @@ def _smallest_agreeing(bench: Workbench, dropped: Sequence[str]) -> Found[Compar
             if len(group) > 1 and (poor or not degenerate(first)):
                 longer = _outputs(first, 2 * first.n + 1)
                 for second in group:
-                    pair = Compared(first, second, first.n + extra, False, 1, 0)
+                    pair = Compared(first, second, first.n + extra, False, 1, frozenset())
                     if bool(pair.degenerate) == poor and _outputs(second, 2 * first.n + 1) != longer:
                         yield pair
 
@@ -227,7 +227,7 @@ def _smallest_outside(holds: Callable[[Compared], bool], bench: Workbench, dropp
     def counterexamples(poor: bool) -> Iterator[Compared]:
         for first, group in grouped(SMALLER, lambda s: _outputs(s, 2 * s.n + 1), *_kept(dropped)):
             for second in group:
-                pair = Compared(first, second, None, True, 1, 0)
+                pair = Compared(first, second, None, True, 1, frozenset())
                 kept = SIMILAR in dropped or pair.similarity is not None
                 if bool(pair.degenerate) == poor and kept and not holds(pair):
                     yield pair

@@ -33,7 +33,7 @@ from faultspace.numeric.method.signal.residual_sizes import PART, loudest, resid
 from faultspace.numeric.method.signal.smoother import smoothed
 from faultspace.numeric.plant import pipeline as identifying
 from faultspace.numeric.plant.monitor import monitoring
-from faultspace.numeric.plant.steps import counting
+from faultspace.numeric.plant.steps import explaining
 from tests.end_to_end.commands import ROOT, call, environment
 from tests.end_to_end.identify_runs import CHANNELS
 
@@ -160,7 +160,7 @@ def test_a_late_fault_is_counted_and_the_stretch_is_reported(monkeypatch: pytest
     v[begins : begins + lasts] = draw.standard_normal((lasts, 1))
     driven = StateSpaceModel(made.A, np.hstack([made.B, made.F]), made.C, np.hstack([made.D, made.G]))
     y = driven.simulate(np.hstack([u, v])) + 0.02 * draw.standard_normal((samples, 3))
-    monkeypatch.setattr(counting, "HELD", 5 * lasts)
+    monkeypatch.setattr(explaining, "HELD", 5 * lasts)
     monkeypatch.setattr(sizes_of_residuals, "PART", part)
     answer = identifying.identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3)
     first, last = answer.held
@@ -181,8 +181,8 @@ from faultspace.cli import command_line
 from faultspace.numeric.data import records
 from faultspace.numeric.method.signal import reconstruction
 from faultspace.numeric.plant.monitor import monitoring
-from faultspace.numeric.plant.steps import counting
-counting.HELD, records.IN_MEMORY, reconstruction.LONGEST, monitoring.NUMBERS = 1 << 15, 1 << 20, 1 << 13, 1 << 20
+from faultspace.numeric.plant.steps import explaining
+explaining.HELD, records.IN_MEMORY, reconstruction.LONGEST, monitoring.NUMBERS = 1 << 15, 1 << 20, 1 << 13, 1 << 20
 with contextlib.suppress(ImportError):
     from matplotlib.figure import Figure
     Figure.savefig = lambda figure, file, **options: file.write(b"not rendered")
@@ -202,7 +202,7 @@ def peak(path: Path, channels: tuple[str, ...]) -> float:
 
 def test_memory_does_not_grow_with_the_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What Python and numpy ask for is counted, which does not differ from run to run, so that shorter records will do."""
-    for module, name, most in ((counting, "HELD", 1 << 14), (records, "IN_MEMORY", 1 << 18), (reconstruction, "LONGEST", 1 << 12)):
+    for module, name, most in ((explaining, "HELD", 1 << 14), (records, "IN_MEMORY", 1 << 18), (reconstruction, "LONGEST", 1 << 12)):
         monkeypatch.setattr(module, name, most)
     monkeypatch.setattr(monitoring, "NUMBERS", 1 << 18)
     peaks, sizes = [], (20_000, 20_000, 60_000)  # the first of all loads modules

@@ -68,6 +68,8 @@ def test_every_cited_key_is_in_the_bibliography(root: Path, checkout: list[PureP
     cited = {str(name): cited_keys(text) for name, text in sources(root, checkout).items()}
     unknown = {name: sorted(keys - known) for name, keys in cited.items() if keys - known}
     assert unknown == {}
+    read = "\n".join(text for name, text in sources(root, checkout).items() if name.suffix == ".py")
+    assert [key for key in sorted(known) if not re.search(rf"[\[ ]{key}[\],]", read)] == [], "in the bibliography, and used by nothing"
     # The key in this file's own docstring: a reading that finds nothing anywhere would be seen here.
     assert cited["tests/house/test_tree.py"] == {"V93"}
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -28,7 +27,7 @@ from faultspace.numeric.data.joining import one_record
 from faultspace.numeric.data.records import recorded
 from faultspace.numeric.plant.answer import Identification
 from faultspace.numeric.plant.report.causes_told import residual_table
-from faultspace.numeric.plant.steps import several_experiments as by_experiment
+from faultspace.numeric.plant.steps.explaining import looked_at, most_moved
 from tests.end_to_end.identify_runs import valid
 
 NOISE = 0.1
@@ -223,9 +222,7 @@ def test_a_list_of_pairs_stays_the_pieces_of_one_experiment() -> None:
     assert both.part(10, 100).lengths == (80, 10) and np.array_equal(both.part(10, 100).part(75, 90).u, both.u[85:100])
 
 
-def test_a_step_that_parts_take_reaches_every_part() -> None:
+def test_what_cannot_go_across_experiments_is_asked_of_one() -> None:
     found = found_in_three()
-    assert by_experiment.for_each(found, lambda one: one).parts == found.parts
-    assert by_experiment.for_each(found, lambda one: replace(one, onset=None)).parts[2].onset is None
-    first, last = by_experiment.looked_at(found)
-    assert (first, last) in found.record.bounds and len(by_experiment.most_moved(found).record) == last - first
+    first, last = looked_at(found)
+    assert (first, last) in found.record.bounds and len(most_moved(found).record) == last - first

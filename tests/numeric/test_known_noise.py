@@ -10,11 +10,16 @@ from numpy.typing import NDArray
 
 import faultspace as fs
 from faultspace.base.errors import InvalidData
+from faultspace.base.progress import silent
 from faultspace.numeric import ReducedModel, StateSpaceModel, arx_reduction, identified_fault_space, isolate
+from faultspace.numeric.data.joining import one_record
 from faultspace.numeric.method.model.moesp_model import MoespModel
 from faultspace.numeric.method.rows.known_noise import space_in_known_noise, state_units, whitening
 from faultspace.numeric.plant.steps import modelling
 from faultspace.numeric.plant.steps.choice import noise_mix
+from faultspace.numeric.plant.steps.explaining import explained
+from faultspace.numeric.plant.steps.findings import Measured
+from faultspace.numeric.plant.steps.operating_point import with_operating_point
 
 Array = NDArray[np.float64]
 PLANT = StateSpaceModel([[0.7, 0.2], [-0.3, 0.5]], np.eye(2), [[1.0, 0.5], [0.2, 1.0], [1.0, -1.0]], np.zeros((3, 2)))
@@ -80,4 +85,6 @@ def test_units_of_known_noise_are_taken_only_where_the_space_was_sought_in_them(
     found = fs.identify(y, u, order=2, healthy=200, n_v=1)
     # A model of PI-MOESP, whose space is from rows of the outputs as they are.
     assert isinstance(found.model, MoespModel) and found.fault_space is not None and found.fault_space.method == "kernel rows"
-    assert noise_mix(found) is None and noise_mix(replace(found, model=model)) is not None
+    part = one_record(y, u)
+    plant = explained(Measured(*with_operating_point(part, 200, None), 200, False, None), found.model, False, 20, silent)
+    assert noise_mix(plant) is None and noise_mix(replace(plant, model=model)) is not None

@@ -17,7 +17,7 @@ from faultspace.numeric.plant.report import residual_spectra as spectra
 from faultspace.numeric.plant.report.result_page import CAPTIONS, report, tiles
 from faultspace.numeric.plant.report.result_pictures import PICTURES
 from faultspace.numeric.plant.report.summary import advice, summary
-from faultspace.numeric.plant.steps.findings import Findings
+from faultspace.numeric.plant.steps.findings import Answer
 
 PLANT = StateSpaceModel([[0.5, 0.2], [0.0, 0.3]], [[1.0], [0.5]], [[1.0, 0.0], [0.3, 1.0]], [[0.0], [0.0]])
 EVIL = "<script>alert('y')</script>"
@@ -52,13 +52,13 @@ class Elements(HTMLParser):
 
 
 @pytest.fixture(scope="module")
-def found() -> Findings:
+def found() -> Answer:
     u = np.random.default_rng(1).standard_normal((400, 1))
     y = PLANT.simulate(u) + 0.01 * np.random.default_rng(2).standard_normal((400, 2))
     return identify(recorded(y, u, outputs=(EVIL, "y|2"), inputs=("u",)), order=2)
 
 
-def test_the_page_is_well_formed_fetches_nothing_and_runs_nothing(found: Findings, tmp_path: Path) -> None:
+def test_the_page_is_well_formed_fetches_nothing_and_runs_nothing(found: Answer, tmp_path: Path) -> None:
     for name in PICTURES[:2]:
         (tmp_path / name).write_bytes(b"\x89PNG")
     seen = Elements(report(found, [*summary(found, EVIL)], tmp_path, EVIL))
@@ -87,7 +87,7 @@ def test_a_wide_picture_can_be_scrolled_on_a_phone_and_a_long_answer_is_set_smal
     assert text.count('class="answer long"') == text.count('class="answer"') == 1
 
 
-def test_a_fit_below_zero_is_explained_and_its_advice_comes_first(found: Findings) -> None:
+def test_a_fit_below_zero_is_explained_and_its_advice_comes_first(found: Answer) -> None:
     draw = np.random.default_rng(1)
     u = draw.standard_normal((400, 1))
     y = PLANT.simulate(u) + 0.1 * draw.standard_normal((400, 2)) + [0.0, 500.0]
@@ -101,7 +101,7 @@ def test_a_fit_below_zero_is_explained_and_its_advice_comes_first(found: Finding
         assert "below zero" not in words and not any(line.startswith("operating_point") for line in advice(fine))
 
 
-def test_spectra_show_the_frequency_of_a_fault_and_are_left_out_of_short_records(found: Findings) -> None:
+def test_spectra_show_the_frequency_of_a_fault_and_are_left_out_of_short_records(found: Answer) -> None:
     assert found.residual is not None
     r = np.random.default_rng(5).standard_normal((1200, 2))
     r[500:, 1] += 2 * np.sin(2 * np.pi * 0.125 * np.arange(700))
@@ -124,13 +124,13 @@ def test_pictures_stand_in_their_section_or_last() -> None:
     assert text.index("first") < text.index("words") < text.index("second") < text.index("Pictures") < text.index("lost")
 
 
-def test_an_open_answer_says_so_in_words_not_in_colour_alone(found: Findings) -> None:
+def test_an_open_answer_says_so_in_words_not_in_colour_alone(found: Answer) -> None:
     shown = {tile.of: tile for tile in tiles(replace(found, n_v=None, possible=(1, 2)))}
     assert shown["Faults"] == Tile("Faults", "undecided: 1 or 2", "See the section on faults.", False)
     assert 'class="tile open"' in page("t", "# t", tiles=[shown["Faults"]])
 
 
-def test_a_zero_that_rests_on_the_noise_is_no_bare_zero(found: Findings) -> None:
+def test_a_zero_that_rests_on_the_noise_is_no_bare_zero(found: Answer) -> None:
     assert found.n_v == 0 and found.noise_level is None
     shown = {tile.of: tile for tile in tiles(found)}["Faults"]
     assert not shown.decided and shown.answer == "none told from noise" and "noise" in shown.rests
@@ -139,7 +139,7 @@ def test_a_zero_that_rests_on_the_noise_is_no_bare_zero(found: Findings) -> None
     assert moved.answer == "a constant one acts" and not moved.decided
 
 
-def test_onset_and_cause_stand_at_the_head(found: Findings) -> None:
+def test_onset_and_cause_stand_at_the_head(found: Answer) -> None:
     rng = np.random.default_rng(5)
     r = rng.standard_normal((600, 2))
     r[400:, 1] += 20
@@ -150,6 +150,6 @@ def test_onset_and_cause_stand_at_the_head(found: Findings) -> None:
     assert "Cause" not in {tile.of for tile in tiles(replace(found, shift_isolation=None, isolation=None))}
 
 
-def test_no_healthy_count_of_zero_is_a_bare_zero(found: Findings) -> None:
+def test_no_healthy_count_of_zero_is_a_bare_zero(found: Answer) -> None:
     shown = {tile.of: tile for tile in tiles(replace(found, healthy=100))}["Faults"]
     assert shown.answer == "none seen" and "from which size on" in shown.rests

@@ -37,7 +37,7 @@ class Triple:
     conclusion: bool
     weight: int = 1
     field: str = "Q"
-    accepted: int = 2
+    accepted: frozenset[str] = frozenset({"one", "two"})
     degenerate: str = ""
 
     @property

@@ -144,7 +144,7 @@ def test_numbers_changed_in_the_file_are_refused(tmp_path: Path, monkeypatch: py
             else:
                 (tmp_path / results.FILE).write_text(json.dumps(forged), "utf-8")
             with monkeypatch.context() as patched:
-                patched.setattr(results.resources, "files", lambda package: tmp_path)
+                patched.setattr(resources, "files", lambda package: tmp_path)
                 records = stored.__wrapped__()
             (found,) = checked_again(target, [record for record in records if record["attack"] == first.id])
             if not again:
@@ -249,7 +249,7 @@ def _dies(target: str, records: object) -> None:
 
 def test_a_row_of_the_hypothesis_table_gives_way_too() -> None:
     record = record_of("without consistency: u white by a double pole")
-    row = Row("consistency", "proposition-1", "right", ("u white",), Verdict.CERTIFIED, "on experiments", None, (), 0)
+    row = Row("consistency", "proposition-1", "right", ("u white",), Verdict.CERTIFIED, "on experiments", None, (), frozenset())
     assert of_row(row, Attacking((record,))).verdict == Verdict.REFUTED
     assert of_row(replace(row, dropped=("u white", "past >= n")), Attacking((record,))).verdict == Verdict.CERTIFIED
     assert of_row(row, Attacking(())).verdict == Verdict.ERROR, "nothing attacked it, and no theorem says it"

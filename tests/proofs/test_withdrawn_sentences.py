@@ -18,8 +18,11 @@ from faultspace.proofs.verdict.verdicts import Verdict, of_readings
 
 ROOT = Path(__file__).parents[2]
 PAPERS, LITERATURE = "faultspace/examples/papers.toml", "faultspace/examples/literature.toml"
+CLAIMS, CHOICES = "faultspace/examples/claims.toml", "faultspace/examples/choices.toml"
 GLOSSARY, CONCEPTS, CONSISTENCY = "docs/glossary.md", "docs/concepts.md", "docs/consistency.md"
 README, SENTENCES = "README.md", "faultspace/review/sentences.toml"
+
+UNMOVED: dict[str, Any] = {"A": [[0]], "F": [[0]], "C": [[1]], "G": [[0]]}  # a fault that nothing feels
 
 # The words that stood in a file, a system, and what is true of it, which contradicts them.
 SYSTEMS: list[tuple[str, str, dict[str, Any], dict[str, Any]]] = [
@@ -59,11 +62,45 @@ SYSTEMS: list[tuple[str, str, dict[str, Any], dict[str, Any]]] = [
         {"A": [[0, 0], [0, 0]], "F": [[], []], "C": [[1, 0], [0, 1]], "G": [[], []], "m": 0, "n": 2, "p": 2},
         {"window_ranks": [2] * 5},
     ),
+    *(
+        (words, file, UNMOVED, {"left_invertible": False, "left_minimal_indices": [1], "right_minimal_indices": [0], "zeta": 0, **facts})
+        for words, file, facts in (
+            ('"With one input and one output n less the number of finite zeros is the delay', LITERATURE, {"delay_known_state": None}),
+            ('"Without feedthrough C F has full column rank iff every infinite zero', LITERATURE, {"infinite_zero_orders": []}),
+            ('iff there are no zeros and no right minimal indices."', LITERATURE, {"n": 1}),
+            ('"Without invariant zeros every input is found exactly', PAPERS, {"delay_unknown_state": None}),
+            ('"The rank grows by the number of faults at every window', CLAIMS, {"window_ranks": [1] * 4}),
+        )
+    ),
+    (
+        "rank C F = rank F, which an observer without delay needs",  # x(k+1) = x(k) / 2 + r(k), from any estimate
+        LITERATURE,
+        {"A": [["1/2"]], "F": [[1]], "C": [[0]], "G": [[1]]},
+        {"invariant_zero_polynomial": ["-1/2", "1"], "delay_unknown_state": 0},
+    ),
+    (
+        'has as many zeros as the system."',  # the choice P = I of A = 0, F = C = 1, G = 0, whose zeta is 1
+        CHOICES,
+        {"A": [[0]], "F": [[1, 0]], "C": [[1]], "G": [[0, 1]]},
+        {"normal_rank": 1, "zeta": 0},
+    ),
     (
         "the printed s >= n - 1",  # the review has s >= n, too, and that is enough
         README,
         {"A": [[0, 1], [0, 0]], "F": [[0], [1]], "C": [[1, 0], [0, 0]], "G": [[0], [1]]},
         {"window_ranks": [2, 4, 5, 6, 7], "lag": 2},
+    ),
+    (
+        "If there are no zeros and one fault, F and G are known",  # true of left-invertible systems; here F = 0 explains as much
+        CONCEPTS,
+        {"A": [[0, 1], [0, 0]], "F": [[0], [1]], "C": [[0, 0]], "G": [[0]]},
+        {"zeta": 0, "fault_space_dimension": 2, "left_invertible": False},
+    ),
+    (
+        "that grow or decay like the powers of q",  # a zero at 1: they stay
+        GLOSSARY,
+        {"A": [[2]], "F": [[1]], "C": [[1]], "G": [[1]]},
+        {"invariant_zero_polynomial": ["-1", "1"]},
     ),
 ]
 
@@ -133,6 +170,32 @@ def test_the_words_of_a_claim_of_literature_hold_where_its_numbers_do() -> None:
     claims = {one.id: one for one in read_claims((ROOT / LITERATURE).read_text("utf-8"))}
     assert "at least as many zeros as uncontrollable modes" in claims["decoupling-zeros-of-tall-systems"].statement
     assert "Fitch" not in text(PAPERS), "arXiv 1509.06226 has two authors"
+    assert claims["past-and-future"].statement.startswith("In a minimal system"), "A = C = 1, B = D = 0, x(0) = 0: 1 + 1 - 2 dimensions"
+    assert "With such an excitation" in claims["lemma-uncontrollable"].statement, "u = 0"
+
+
+STEMS = {
+    **{"left_invertible": ("invert", "left inverse"), "observable": ("observ",), "minimal": ("minimal",)},
+    **{"controllable": ("controll",), "is_zero(G)": ("feedthrough",)},
+}
+BACK = ("Then ", "It ", "Under the same conditions ", "Where the system is observable, that rank ")  # of the statement before
+
+
+@pytest.mark.parametrize("name", ["literature", "papers", "claims", "choices", "records"])
+def test_what_is_not_refuted_has_its_hypotheses_in_its_words(name: str) -> None:
+    for one in read_claims((ROOT / f"faultspace/examples/{name}.toml").read_text("utf-8")):
+        if "REFUTED" in {str(verdict) for verdict in one.expected.values()} or one.statement.startswith(BACK):
+            continue
+        for hypothesis in one.hypotheses:
+            stems = STEMS.get(hypothesis.label.removeprefix("inputs.").removeprefix("chosen."), ("",))
+            assert any(stem in one.statement.lower() for stem in stems) or one.id == "delay-by-controllability", (one.id, hypothesis.label)
+
+
+def test_places_in_the_review_are_those_where_it_has_the_claim() -> None:
+    references = {one.id: one.reference for one in load()}
+    assert all("'If this is right'" in references[one] for one in ("zero-feedthrough", "trajectory-recovered"))
+    assert "'Reading between the lines'" in references["canonical-form"] and "(i)" not in references["theorem-3-i"]
+    assert {one for one, place in references.items() if "section" in place.lower()} == {"example-v"}
 
 
 def test_a_claim_is_amended_only_where_every_reading_of_it_or_of_a_part_is_refuted() -> None:
@@ -154,11 +217,27 @@ def test_a_claim_is_amended_only_where_every_reading_of_it_or_of_a_part_is_refut
 def test_words_that_say_more_than_is_known_are_gone(words: str) -> None:
     """The paper's text was not at hand, tools that were not measured have no past outputs, and the review speaks of no ranks 6 and 7."""
     folders = ["docs", "docs/start", "docs/tutorials", "faultspace/cli", "faultspace/review", "faultspace/review/templates"]
-    folders += ["faultspace/review/view", "faultspace/examples", "proofs/verdict", "proofs/claims", "numeric/model", "exact/limits"]
+    folders += ["faultspace/review/view", "faultspace/examples", "proofs/verdict", "proofs/claims", "numeric/method/model", "exact/limits"]
     pages = [page for folder in folders for page in (ROOT / folder).iterdir() if page.suffix in (".md", ".py", ".toml", ".html")]
     shown = [ROOT / README, *(page for page in pages if page.name != "history.md")]
     assert len(shown) > 100
     assert [page.name for page in shown if words in page.read_text("utf-8").lower()] == []
+
+
+def test_a_counterexample_need_not_be_of_the_box_nor_a_certificate_of_one_system() -> None:
+    (answer,) = fs.claim("lag <= 1", box={"n": [1, 1], "m": [1, 1], "p": [1, 1]}).answers
+    assert answer.tried.exhausted and answer.counterexample.system.n == 2
+    assert "the smallest one of a stated box of systems is shown" not in text(GLOSSARY)
+    about = [json.loads(file.read_text("utf-8"))["statement"] for file in (ROOT / "proofs/certificates").glob("behaviour-equality-*.json")]
+    assert about and all({"first", "second"} <= set(one) for one in about)
+    for file in (GLOSSARY, "docs/decisions.md", "docs/tutorials/read-a-certificate.md"):
+        assert "statement about one system" not in text(file) and "Certificates speak of one system" not in text(file)
+
+
+def test_what_has_no_example_is_not_said_to_have_one() -> None:
+    without = {name for name in dir(fs) if ">>>" not in (getattr(fs, name).__doc__ or "")}
+    assert without == {"__version__", "exact", "numeric", "proofs"}, "README says it of functions and classes alone"
+    assert "every one has a docstring with an example" not in text(README)
 
 
 def test_a_claim_that_is_proved_is_not_refuted_either(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -38,7 +38,7 @@ from ...data.records import Record
 from ...data.validation import experiment, positive
 from .arx_windows import about_zero, arx_windows, longest_lag, merge_windows
 from .compression import EPS, Pieces
-from .feedback import FEEDBACK_LEVEL, FOLLOWS, HEARD, feedback_chance
+from .feedback import FEEDBACK_LEVEL, HEARD, feedback_chance
 from .models import StateSpaceModel
 from .order_choice import order_tried
 from .reduced_model import ReducedModel, reduced
@@ -113,6 +113,12 @@ def arx_reduction_experiments(
 
 
 def _from_experiments(sources: Sequence[Pieces], order: int | None, lags: int | None, offset: bool) -> ReducedModel:
+    found, carried = reduction(sources, order, lags, offset)
+    return replace(found, notes=found.notes + _feedback(sources, found, carried))
+
+
+def reduction(sources: Sequence[Pieces], order: int | None, lags: int | None, offset: bool) -> tuple[ReducedModel, int]:
+    """Return the model of some experiments and its lags, without asking whether the inputs follow the outputs."""
     n = order if order is None or (order == 0 and not isinstance(order, bool)) else positive(order, "order")
     if not isinstance(offset, bool | np.bool_):
         raise InvalidData(f"offset: got {shorten(offset)}; True or False is needed")
@@ -133,12 +139,12 @@ def _from_experiments(sources: Sequence[Pieces], order: int | None, lags: int | 
         _initial_state(source, found, mean) if known else np.full(found.order, np.nan)
         for source, mean, known in zip(sources, offsets, used, strict=True)
     )
-    notes = found.notes + _feedback(sources, found, carried)
+    notes = found.notes
     if not all(used):
         notes += (
             f"{used.count(False)} of {len(used)} experiments are too short for a part in the model, which takes {carried + 1} samples",
         )
-    return replace(found, offsets=offsets, initial_states=states, notes=notes)
+    return replace(found, offsets=offsets, initial_states=states, notes=notes), carried
 
 
 def _feedback(sources: Sequence[Pieces], found: ReducedModel, lags: int) -> tuple[str, ...]:
@@ -147,7 +153,7 @@ def _feedback(sources: Sequence[Pieces], found: ReducedModel, lags: int) -> tupl
     if chance >= FEEDBACK_LEVEL:
         return ()
     return (
-        f"{FOLLOWS} (a chance of {chance:.2g} in open loop): in a closed loop the standard errors are too small, "
+        f"u follows what disturbed y before (a chance of {chance:.2g} in open loop): in a closed loop the standard errors are too small, "
         "and D is wrong where the loop has no delay",
     )
 

@@ -26,8 +26,6 @@ from .compression import EPS
 
 FEEDBACK_LEVEL = 1e-3
 """The probability of a note in open loop."""
-FOLLOWS = "u follows what disturbed y before"
-"""So begins the note of a closed loop."""
 HEARD = 1 << 13
 """Samples of an experiment that are looked at: so many show a correlation of 0.2 at one lag, be there a hundred others."""
 

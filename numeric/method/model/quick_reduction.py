@@ -22,7 +22,7 @@ ANGLES = 32
 STEPS, GAIN = 25, 1e-2  # of a descent that only makes a start: at most so many, until one gains no more than such a share
 
 
-def quick_reduction(arx: Arx, n: int, steps: int = STEPS) -> StateSpaceModel:
+def quick_reduction(arx: Arx, n: int) -> StateSpaceModel:
     """Return a stable model of order n. Raises InvalidData where the ARX model shows no dynamics to begin from."""
     angles = circle(ANGLES)
     n_u = arx.inputs.shape[2]
@@ -31,4 +31,4 @@ def quick_reduction(arx: Arx, n: int, steps: int = STEPS) -> StateSpaceModel:
     begun = sorted(realisations(arx, problem, n, arx.order), key=lambda start: problem.cost(start, n))
     if not begun:
         raise InvalidData(f"no model of order {n} can be begun from this ARX model: try another order")
-    return state_space(descend(problem, begun[0], n, steps, GAIN)[0], n)
+    return state_space(descend(problem, begun[0], n, STEPS, GAIN)[0], n)

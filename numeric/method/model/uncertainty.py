@@ -1,7 +1,7 @@
 """Compute a model's uncertainty as that of what does not depend on the state basis: Markov parameters, transfer function, poles.
 
 A Fisher information J of T = [[A, B], [C, D]] is singular along the gauge, and only there for a minimal, excited model. With Q across the
-gauge and Q' J Q = R R', the covariance of an invariant with Jacobian H (delta method, [VV07, ch. 4]) is H Q (R R')^-1 Q' H', whatever Q.
+gauge and Q' J Q = R R', the covariance of an invariant with Jacobian H (delta method, [L99]) is H Q (R R')^-1 Q' H', whatever Q.
 
 Uncertainty        a model with its covariance off the gauge
 uncertainty_of     from an information matrix

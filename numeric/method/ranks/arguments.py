@@ -21,7 +21,7 @@ from ...data.validation import enough_samples, positive, signal
 
 @dataclass(frozen=True)
 class Arguments:
-    """These are the arguments after checking; `longest` is the number of samples of the longest window looked at."""
+    """The arguments after checking; `longest` is the number of samples of the longest window looked at, `told` how n_v is known."""
 
     r: Array
     A: Array
@@ -29,6 +29,7 @@ class Arguments:
     n_v: int | None
     block_rows: int
     longest: int
+    told: str = "given"
 
     @property
     def n(self) -> int:

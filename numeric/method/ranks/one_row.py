@@ -36,7 +36,7 @@ from .triangles import stacked_triangle
 BANDS = 64
 SEGMENT = 2048
 PAST = 20
-NOISE_ORDER = 4
+NOISE_ORDER, ROUNDS = 4, 3
 FLAT = 1e-5  # nats that the last step of a descent gains: far below those that are compared
 _STEPS = 60
 _COLOUR_FLOOR = 1e-3
@@ -89,7 +89,7 @@ class FittedRow:
         return int(self.coefficients.shape[0]) - 1
 
 
-def window_moments(r: Array, degree: int, *, u: Array | None = None, bands: int = BANDS) -> WindowMoments:
+def window_moments(r: Array, degree: int, *, u: Array | None = None) -> WindowMoments:
     """Return banded moments of the windows of r (N, p), in memory that does not depend on N.
 
     With u (N, n_u) the windows are first made orthogonal to the inputs from `PAST` samples before to their end: then what u explains
@@ -117,7 +117,7 @@ def window_moments(r: Array, degree: int, *, u: Array | None = None, bands: int 
             return psi, np.zeros((stop - start, 0))
         return psi, np.hstack([inputs[start + j : stop + j] for j in range(before + degree + 1)])
 
-    bands = max(4, min(bands, windows // 8))
+    bands = max(4, min(BANDS, windows // 8))
     size = p * (degree + 1)
     moments = np.zeros((bands, size, size))
     counts = np.zeros(bands)
@@ -147,19 +147,12 @@ def window_moments(r: Array, degree: int, *, u: Array | None = None, bands: int 
     return WindowMoments(moments, counts, angles, p, degree, windows)
 
 
-def kernel_row(
-    moments: WindowMoments,
-    *,
-    starts: tuple[Array, ...] = (),
-    within: Array | None = None,
-    noise_order: int = NOISE_ORDER,
-    rounds: int = 3,
-) -> FittedRow:
+def kernel_row(moments: WindowMoments, *, starts: tuple[Array, ...] = (), within: Array | None = None) -> FittedRow:
     """Return the maximum-likelihood row for these moments.
 
     `starts`: coefficient arrays (d+1, p), d <= degree, tried beside the plain null space (the row that the least singular
     vector of the Hankel matrix gives). `within` (q, p (degree+1)): rows that span the coefficient vectors allowed, for
-    example the orthonormal complement of the observability matrix [G25, problem (11)]. `rounds` of noise colour and row in turns.
+    example the orthonormal complement of the observability matrix [G25, problem (11)]. Noise colour and row are fitted in turns.
     """
     p, degree, angles = moments.channels, moments.degree, moments.angles
     basis = np.eye(p * (degree + 1)) if within is None else np.linalg.qr(np.asarray(within, dtype=float).T)[0].T
@@ -176,10 +169,10 @@ def kernel_row(
     # Costs that rounding makes are equal: the plain null vector is then the most exact.
     g, cost, flat = min(fits, key=lambda fit: max(fit[1], _rounding(data, gains, fit[0])))
     regression = np.array([1.0])
-    for _ in range(rounds if noise_order else 0):
+    for _ in range(ROUNDS):
         spectrum = _numerator(data, g) / (_numerator(gains, g) * moments.counts)
-        regression = _autoregression(spectrum, angles, moments.counts, noise_order)
-        colour = 1.0 / np.abs(np.exp(-1j * np.outer(angles, np.arange(noise_order + 1))) @ regression) ** 2
+        regression = _autoregression(spectrum, angles, moments.counts)
+        colour = 1.0 / np.abs(np.exp(-1j * np.outer(angles, np.arange(NOISE_ORDER + 1))) @ regression) ** 2
         colour = np.maximum(colour, _COLOUR_FLOOR)
         colour /= np.exp(np.average(np.log(colour), weights=moments.counts))
         g, cost, flat = _descend(data / colour[:, None, None], gains, g)
@@ -253,9 +246,10 @@ def _descend(data: Array, gains: Array, g: Array) -> tuple[Array, float, bool]:
     return g, cost, flat
 
 
-def _autoregression(spectrum: Array, angles: Array, counts: Array, order: int) -> Array:
+def _autoregression(spectrum: Array, angles: Array, counts: Array) -> Array:
     """Return the monic Yule-Walker autoregression of a spectrum sampled at the angles."""
     weight = spectrum * counts / counts.sum()
+    order = NOISE_ORDER
     lags = np.cos(np.outer(np.arange(order + 1), angles)) @ weight
     if lags[0] <= 0.0:
         return np.asarray(np.eye(1, order + 1)[0], dtype=np.float64)

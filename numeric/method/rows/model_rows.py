@@ -39,12 +39,6 @@ def _annihilators(model: StateSpaceModel, eta: int) -> Array:
     return np.asarray(np.linalg.qr(both.reshape(len(left), -1).T)[0].T, dtype=np.float64)
 
 
-def in_units_of(model: StateSpaceModel, data: JointMoments) -> StateSpaceModel:
-    """Return the model of the channels in the units of the moments."""
-    y, u = data.scale[: data.p, None], data.scale[data.p :]
-    return StateSpaceModel(model.A, model.B * u, model.C / y, model.D * u / y)
-
-
 def model_rows(data: JointMoments, model: StateSpaceModel, degrees: Sequence[int], shares: Array | None = None) -> KernelBasis:
     """Fit rows of these degrees that the model, in the units of the moments, admits."""
     moments = data.moments.of_degree(max(degrees))

@@ -76,7 +76,6 @@ def kernel_basis(
     within: Sequence[Array],
     starts: Sequence[Sequence[Array]] = (),
     *,
-    noise_order: int = NOISE_ORDER,
     rounds: int = ROUNDS,
     shares: Array | None = None,
     flat: float = FLAT,
@@ -88,7 +87,7 @@ def kernel_basis(
     """
     problem = _problem(moments, within, shares)
     starting = [_coefficients(within, start) for start in starts]
-    return _likeliest(moments, problem, within, starting + _plain(problem, within), noise_order, rounds, flat)
+    return _likeliest(moments, problem, within, starting + _plain(problem, within), rounds, flat)
 
 
 def refined_basis(
@@ -96,7 +95,6 @@ def refined_basis(
     within: Sequence[Array],
     start: Sequence[Array],
     *,
-    noise_order: int = NOISE_ORDER,
     rounds: int = ROUNDS,
     shares: Array | None = None,
     flat: float = FLAT,
@@ -104,7 +102,7 @@ def refined_basis(
     """Find the same from one start alone, k arrays (eta_i + 1, p): for moments, or shares, that differ little from those it was fitted
     to."""
     problem = _problem(moments, within, shares)
-    return _likeliest(moments, problem, within, [_coefficients(within, start)], noise_order, rounds, flat)
+    return _likeliest(moments, problem, within, [_coefficients(within, start)], rounds, flat)
 
 
 def _coefficients(within: Sequence[Array], rows: Sequence[Array]) -> Array:
@@ -113,17 +111,17 @@ def _coefficients(within: Sequence[Array], rows: Sequence[Array]) -> Array:
 
 
 def _likeliest(
-    moments: CrossMoments, problem: _Problem, within: Sequence[Array], guesses: list[Array], noise_order: int, rounds: int, flat: float
+    moments: CrossMoments, problem: _Problem, within: Sequence[Array], guesses: list[Array], rounds: int, flat: float
 ) -> KernelBasis:
     """Return the best descent of all guesses with a white colour, then colour and rows in turns."""
     colour = np.ones(len(moments.angles))
-    first = max(ROUGH, flat) if noise_order and rounds else flat
+    first = max(ROUGH, flat) if rounds else flat
     ends = [_descend(problem, colour, _normed(problem, h), first) for h in guesses]
     end = min(ends, key=lambda end: max(end.cost(colour), _rounding(problem, colour, end)))
     regression = np.ones(1)
     before = np.inf
-    for _ in range(rounds if noise_order else 0):
-        regression = _autoregression(end.power / problem.weights, moments.angles, problem.weights, noise_order)
+    for _ in range(rounds):
+        regression = _autoregression(end.power / problem.weights, moments.angles, problem.weights)
         colour = _colour(regression, moments.angles, problem.weights)
         end = _descend(problem, colour, end.h, flat)
         now = np.log(max(end.cost(colour), TINY))
@@ -399,17 +397,17 @@ def _covariance(problem: _Problem, colour: Array, h: Array, power: float, sample
     return np.asarray(free @ inverse @ scores @ inverse @ free.T) * power / samples
 
 
-def colour_of(spectrum: Array, angles: Array, weights: Array, order: int = NOISE_ORDER) -> Array:
+def colour_of(spectrum: Array, angles: Array, weights: Array) -> Array:
     """Return the spectrum (bands,), of mean logarithm zero, of the autoregression that fits a spectrum (bands,) best."""
-    return _colour(_autoregression(spectrum, angles, weights, order), angles, weights)
+    return _colour(_autoregression(spectrum, angles, weights), angles, weights)
 
 
-def _autoregression(spectrum: Array, angles: Array, weights: Array, order: int) -> Array:
+def _autoregression(spectrum: Array, angles: Array, weights: Array) -> Array:
     """Return the monic Yule-Walker autoregression of a spectrum sampled at the angles."""
-    lags = np.cos(np.outer(np.arange(order + 1), angles)) @ (spectrum * weights)
+    lags = np.cos(np.outer(np.arange(NOISE_ORDER + 1), angles)) @ (spectrum * weights)
     if not lags[0] > 0.0:
-        return np.asarray(np.eye(1, order + 1)[0], dtype=np.float64)
-    column = lags[:-1] + 1e-9 * lags[0] * (np.arange(order) == 0)
+        return np.asarray(np.eye(1, NOISE_ORDER + 1)[0], dtype=np.float64)
+    column = lags[:-1] + 1e-9 * lags[0] * (np.arange(NOISE_ORDER) == 0)
     return np.concatenate([[1.0], -scipy.linalg.solve_toeplitz(column, lags[1:])])
 
 

@@ -73,7 +73,11 @@ def fault_space_by_likelihood(
     degree below s are used; by default it is lag + 1. Consistent only for noise of one colour and of the same power
     relative to each channel (head of the module). Raises InvalidData as `fault_space`.
     """
-    data = arguments(r, A, C, n_v, block_rows)
+    return likelihood_space(arguments(r, A, C, n_v, block_rows), block_rows)
+
+
+def likelihood_space(data: Arguments, block_rows: int | None) -> FaultSpaceEstimate:
+    """Return the same of arguments that were checked."""
     faults, why = _faults(data)
     if faults is None or faults >= data.p:
         return everything(data.n, data.p, faults, data.block_rows, why)
@@ -185,7 +189,7 @@ def _faults(data: Arguments) -> tuple[int | None, str]:
             return None, f"no fault was found ({found.reason}), so there is no fault space to speak of"
         faults, source = found.n_v, "n_v from fault_dimension"
     else:
-        faults, source = data.n_v, "n_v as given"
+        faults, source = data.n_v, f"n_v as {data.told}"
     if faults >= data.p:
         return (
             faults,

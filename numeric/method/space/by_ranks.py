@@ -17,7 +17,7 @@ Source: [G25] problem (11), Theorem 3.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -28,7 +28,7 @@ from ....base.threads import one_thread
 from ...data.records import Stored, in_memory
 from ..ranks.arguments import Arguments, arguments
 from ..ranks.sample_windows import EPS, channel_sizes, gap_rank, hankel_factor, leading_factor, observed_coordinates
-from .by_likelihood import fault_space_by_least_squares, fault_space_by_likelihood
+from .by_likelihood import fault_space_by_least_squares, fault_space_by_likelihood, likelihood_space
 from .error_bound import fault_space_error_bound
 from .estimate import FaultSpaceEstimate, everything, kernel_conditions, orthonormal
 from .largest import largest_fault_space
@@ -65,11 +65,16 @@ def fault_space(
     >>> found.n_z, bool(np.allclose(found.G[1], 2 * found.G[0]))
     (1, True)
     """
-    data = arguments(in_memory(r), A, C, n_v, block_rows)
+    return told_fault_space(r, A, C, n_v=n_v, block_rows=block_rows, told="given")
+
+
+def told_fault_space(
+    r: ArrayLike | Stored, A: ArrayLike, C: ArrayLike, *, n_v: int | None, told: str, block_rows: int | None = None
+) -> FaultSpaceEstimate:
+    """Return the same, whose reason says how `n_v` was `told`: "given" or "counted"."""
+    data = replace(arguments(in_memory(r), A, C, n_v, block_rows), told=told)
     ladder = _ladder(data)
-    if ladder.exact:
-        return _from_ladder(data, ladder)
-    return fault_space_by_likelihood(data.r, data.A, data.C, n_v=n_v, block_rows=block_rows)
+    return _from_ladder(data, ladder) if ladder.exact else likelihood_space(data, block_rows)
 
 
 def noise_free_fault_space(
@@ -204,7 +209,7 @@ def _judged(data: Arguments, ladder: Ladder, n_v: int, n_z: int, expected: int, 
         )
     if ladder.final_gap != n_v:
         return False, (
-            f"n_v = {n_v} was given but the ranks grow by {ladder.final_gap} a sample: the faults are not independent, "
+            f"n_v = {n_v} was {data.told} but the ranks grow by {ladder.final_gap} a sample: the faults are not independent, "
             "or do not excite, "
             f"or are not as many ({ranks})"
         )

@@ -15,7 +15,7 @@ p). Source: [G25] problem (11).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -27,6 +27,7 @@ from ...data.plain import plain
 from ..plotting import plot_conditions
 
 DRAWS = 4000
+UNDECIDED = "undecided: "
 _SEED = 20250519
 
 
@@ -163,6 +164,10 @@ class FaultSpaceEstimate(Shown):
     error_bound: float | None
     method: str
     uncertainty: SpaceUncertainty | None = None
+
+    def in_doubt(self, doubt: str) -> FaultSpaceEstimate:
+        """Return the estimate with its dimension undecided for this reason."""
+        return replace(self, decided=False, reason=f"{UNDECIDED}{doubt}; {self.reason.removeprefix(UNDECIDED)}")
 
     @property
     def F(self) -> Array:

@@ -78,28 +78,29 @@ class Identified(Protocol):
         """Return the model."""
 
 
-def cause_name(kind: str, channel: str) -> str:
-    """Return a single cause in words, of the kind "sensor" or "actuator"."""
-    return f"{'a sensor' if kind == 'sensor' else 'an actuator'} fault on {channel}"
-
-
 @dataclass(frozen=True)
-class Cause:
-    """One single cause: `kind` is "sensor" or "actuator" of `channel`; `angle` in radians from its column to the fault space, in the
-    coordinates of the model; `bound`, which the angle stays below with probability 0.95 where the column lies in the true space; `p_value`,
-    the chance of so large a deviation there; `answer` is "consistent", "excluded" or "undecided"."""
+class SingleCause:
+    """One single cause: `kind` is "sensor" or "actuator" of `channel`."""
 
     kind: str
     channel: str
-    angle: float
-    bound: float | None
-    p_value: float | None
-    answer: str
 
     @property
     def name(self) -> str:
         """Return what it is, in words."""
-        return cause_name(self.kind, self.channel)
+        return f"{'a sensor' if self.kind == 'sensor' else 'an actuator'} fault on {self.channel}"
+
+
+@dataclass(frozen=True)
+class Cause(SingleCause):
+    """One single cause: `kind` is "sensor" or "actuator" of `channel`; `angle` in radians from its column to the fault space, in the
+    coordinates of the model; `bound`, which the angle stays below with probability 0.95 where the column lies in the true space; `p_value`,
+    the chance of so large a deviation there; `answer` is "consistent", "excluded" or "undecided"."""
+
+    angle: float
+    bound: float | None
+    p_value: float | None
+    answer: str
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict, angles in degrees."""
@@ -342,45 +343,43 @@ def _words(causes: Sequence[Cause], sets: Sequence[Sequence[Cause]], n_v: int | 
     """Return the answer in plain words, in which no cause is named alone where another one is consistent too."""
     if reason or n_v is None:
         return f"undecided: {reason}"
-    still = [cause.name for cause in causes if cause.answer == "undecided"]
-    rest = f"; undecided: whether {_or(still)} does" if still else ""
-    if n_v > 1:
-        return _words_of_sets(causes, sets, n_v, still)
-    names = [cause.name for cause in causes if cause.answer == "consistent"]
-    if not names:
-        return (
-            f"undecided: {_or(still)} may explain it, and nothing else does"
-            if still
-            else ("neither: no single sensor and no single actuator explains it")
-        )
+    return _words_of_sets(causes, sets, n_v) if n_v > 1 else words_of_one(causes, "it")
+
+
+def answering(causes: Sequence[Any], answer: str) -> list[str]:
+    """Return the names of the causes with this answer."""
+    return [cause.name for cause in causes if cause.answer == answer]
+
+
+def words_of_one(causes: Sequence[Any], what: str, why: str = "") -> str:
+    """Return in plain words which single cause explains `what`; `why` says of those that are undecided why they are."""
+    still, names = answering(causes, "undecided"), answering(causes, "consistent")
+    rest = f"; undecided: whether {_listed(still, 'or')} does{why}" if still else ""
     if len(names) == 1:
-        return f"{names[0]} explains it{rest or ', and no other single sensor or actuator does'}"
-    return f"{_and(names)} explain it, each by itself: the data cannot tell which{rest}"
+        return f"{names[0]} explains {what}{rest or ', and no other single sensor or actuator does'}"
+    if names:
+        return f"{_listed(names, 'and')} explain {what}, each by itself: the data cannot tell which{rest}"
+    if still:
+        return f"undecided: {_listed(still, 'or')} may explain {what}, and nothing else does{why}"
+    return f"neither: no single sensor and no single actuator explains {what}"
 
 
-def _words_of_sets(causes: Sequence[Cause], sets: Sequence[Sequence[Cause]], n_v: int, still: Sequence[str]) -> str:
-    rest = f"; undecided: {_or(still)}" if still else ""
+def _words_of_sets(causes: Sequence[Cause], sets: Sequence[Sequence[Cause]], n_v: int) -> str:
+    still, alone = answering(causes, "undecided"), answering(causes, "consistent")
+    rest = f"; undecided: {_listed(still, 'or')}" if still else ""
     if len(sets) == 1:
-        return f"{_and([cause.name for cause in sets[0]])} explain the {n_v} faults together{rest}"
+        return f"{_listed([cause.name for cause in sets[0]], 'and')} explain the {n_v} faults together{rest}"
     if sets:
-        listed = " or ".join(_and([cause.name for cause in several]) for several in sets[:4])
+        listed = " or ".join(_listed([cause.name for cause in several], "and") for several in sets[:4])
         more = f", or {counted(len(sets) - 4, 'more set')}" if len(sets) > 4 else ""
         return f"together the {n_v} faults are explained by {listed}{more}: the data cannot tell which{rest}"
-    alone = [cause.name for cause in causes if cause.answer == "consistent"]
     if still:
-        return f"undecided: {n_v} faults act, and {_and([*alone, *still])} may be among them"
-    some = f"only {_and(alone)} {'is' if len(alone) == 1 else 'are'} consistent with the fault space, and more acts" if alone else ""
-    return f"neither: no {n_v} sensors and actuators explain the {n_v} faults{'; ' if some else ''}{some}"
+        return f"undecided: {n_v} faults act, and {_listed([*alone, *still], 'and')} may be among them"
+    verb = "is" if len(alone) == 1 else "are"
+    some = f"; only {_listed(alone, 'and')} {verb} consistent with the fault space, and more acts" if alone else ""
+    return f"neither: no {n_v} sensors and actuators explain the {n_v} faults{some}"
 
 
-def _and(names: Sequence[str]) -> str:
-    return joined(names, "and")
-
-
-def _or(names: Sequence[str]) -> str:
-    return joined(names, "or")
-
-
-def joined(names: Sequence[str], word: str) -> str:
+def _listed(names: Sequence[str], word: str) -> str:
     """Return the names as one phrase, `word` before the last."""
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} {word} {names[-1]}"

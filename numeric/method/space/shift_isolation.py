@@ -13,7 +13,7 @@ ShiftCause        one row
 
     d, V      the shift (p,) and its covariance, estimated with so many degrees of freedom B where it is of `mean_shift`
     c, S      the direction of a cause and the covariance of its errors: zero for a sensor, of an actuator that of G(1)_j by the standard
-              errors of the model (delta method, [VV07, ch. 4])
+              errors of the model (delta method, [L99])
     T         min over a of (d - a c)' (V + a^2 S)^-1 (d - a c), the likelihood ratio of a collinear pair d, c [MN89]; a is on a grid of
               angles, then polished. Where S = 0 it is (N' d)' (N' V N)^-1 N' d with N across c
     chance    T is Hotelling's statistic of p - 1 outputs with B degrees of freedom [H31], chi-squared where V is known; V + a^2 S has more
@@ -37,7 +37,7 @@ from ....base.sheets import Shown, counted
 from ....base.threads import one_thread
 from ...data.plain import plain
 from ..plotting import plot_chances
-from .isolation import CONSISTENT, EXCLUDED, RANK, WIDE, Identified, Matrices, cause_name, joined
+from .isolation import CONSISTENT, EXCLUDED, RANK, WIDE, Identified, Matrices, SingleCause, answering, words_of_one
 
 ANGLES = 720  # of the grid on which the least statistic is looked for
 NO_GAIN = "the model has a pole on the unit circle or outside, as far as its standard errors tell: an offset has no steady response"
@@ -46,24 +46,17 @@ NO_ERRORS = "the model is of PI-MOESP, which does not tell how sure it is, so th
 
 
 @dataclass(frozen=True)
-class ShiftCause:
+class ShiftCause(SingleCause):
     """One single cause: `kind` is "sensor" or "actuator" of `channel`; `size` is the bias in units of that output, or the offset in units
     of that input, which explains the shift best, and `deviation` its standard deviation; `bound` in radians, which the angle between the
     shift and what the cause makes stays below with probability 0.95, in the metric of the noise; `p_value`, the chance of so large a
     deviation; `answer` is "consistent", "excluded" or "undecided". Numbers are None where nothing could be computed."""
 
-    kind: str
-    channel: str
     size: float | None
     deviation: float | None
     bound: float | None
     p_value: float | None
     answer: str
-
-    @property
-    def name(self) -> str:
-        """Return what it is, in words."""
-        return cause_name(self.kind, self.channel)
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict, the bound in degrees."""
@@ -107,7 +100,7 @@ class ShiftIsolation(Shown):
     @property
     def decided(self) -> bool:
         """Say whether the answer is one: a cause is named, or neither."""
-        return not self.answer.startswith("undecided")
+        return not self.reason and not (answering(self.causes, "undecided") and not answering(self.causes, "consistent"))
 
     @property
     def title(self) -> str:
@@ -334,14 +327,4 @@ def _words(causes: Sequence[ShiftCause], reason: str, actuators: str) -> str:
     """Return the answer in plain words, in which no cause is named alone where another one is consistent too."""
     if reason:
         return f"undecided: {reason}"
-    still = [cause.name for cause in causes if cause.answer == "undecided"]
-    why = f" ({actuators})" if actuators else ""
-    names = [cause.name for cause in causes if cause.answer == "consistent"]
-    rest = f"; undecided: whether {joined(still, 'or')} does{why}" if still else ""
-    if len(names) == 1:
-        return f"{names[0]} explains the shift{rest or ', and no other single sensor or actuator does'}"
-    if names:
-        return f"{joined(names, 'and')} explain the shift, each by itself: the data cannot tell which{rest}"
-    if still:
-        return f"undecided: {joined(still, 'or')} may explain the shift, and nothing else does{why}"
-    return "neither: no single sensor and no single actuator explains the shift"
+    return words_of_one(causes, "the shift", f" ({actuators})" if actuators else "")

@@ -81,12 +81,12 @@ def cosine_taper(length: int, edges: float) -> Array:
     return taper
 
 
-def tapered_moments(r: Array, degree: int, most: int = BANDS) -> CrossMoments:
-    """Return the moments of r (N, p) in `most` bands, or fewer where the record is short.
+def tapered_moments(r: Array, degree: int) -> CrossMoments:
+    """Return the moments of r (N, p) in BANDS bands, or fewer where the record is short.
 
     Raises InvalidData where the windows are fewer than twice their own size.
     """
-    return pooled_moments([r], degree, most)
+    return pooled_moments([r], degree)
 
 
 def pooled_moments(experiments: Sequence[Array], degree: int, most: int = BANDS, *, constants: Sequence[bool] = ()) -> CrossMoments:

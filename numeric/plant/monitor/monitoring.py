@@ -91,7 +91,7 @@ class Monitor(Shown):
         shift: float = SHIFT,
         inputs: str | Sequence[str] | None = None,
         outputs: str | Sequence[str] | None = None,
-        on_progress: Progress = silent,
+        on_progress: Progress | None = None,
     ) -> None:
         with one_thread():
             plant, rate = _plant(model), _rate(level)
@@ -99,7 +99,8 @@ class Monitor(Shown):
                 raise InvalidData(f"shift: got {shorten(shift)}; needed a positive change of mean, in deviations: try 1.0")
             window = whole(window, "window", 2, "state how many samples the chi-square test sums over, 20 for example")
             settings = checked(Settings(plant.p, window, float(shift)))
-            self._begin(_learned(model, plant, settings, _given(plant, y, u, inputs, outputs), on_progress), rate, on_progress)
+            heard = on_progress or silent
+            self._begin(_learned(model, plant, settings, _given(plant, y, u, inputs, outputs), heard), rate, heard)
 
     def _begin(self, learned: Learned, level: float, heard: Progress) -> None:
         """Take what was learned, and begin to count samples."""
@@ -125,7 +126,7 @@ class Monitor(Shown):
         write(path, self._learned.to_json() | {"level": self.calibration.level, "state": self._state()} | stream)
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str], *, level: float | None = None, on_progress: Progress = silent) -> Self:
+    def load(cls, path: str | os.PathLike[str], *, level: float | None = None, on_progress: Progress | None = None) -> Self:
         """Return the monitor of `save`, which goes on where it was; or a new one by the model of `identify`: its model.json, or its folder.
 
         `level` is that of the file unless stated, and 1e-4 where the file states none. Raises InvalidInput for a file that cannot be read,
@@ -135,12 +136,12 @@ class Monitor(Shown):
 
     @classmethod
     @one_thread()
-    def from_json(cls, document: Mapping[str, Any], *, level: float | None = None, on_progress: Progress = silent) -> Self:
+    def from_json(cls, document: Mapping[str, Any], *, level: float | None = None, on_progress: Progress | None = None) -> Self:
         """Return the monitor in a document of `save`, or in that of a model with what monitoring needs, as `load` does."""
         document = document.get(MONITORING, document) if isinstance(document, Mapping) else document
         learned = Learned.from_json(document)
         made = cls.__new__(cls)
-        made._begin(learned, _rate(document.get("level", ALARM_LEVEL) if level is None else level), on_progress)
+        made._begin(learned, _rate(document.get("level", ALARM_LEVEL) if level is None else level), on_progress or silent)
         if "state" in document:
             made._resume(document["state"])
         if "stream" in document:

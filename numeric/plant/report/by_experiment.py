@@ -16,18 +16,18 @@ import numpy as np
 from ....base.arrays import Array
 from ...data.plain import plain
 from ...method.model.reduced_model import ReducedModel
-from ..steps.several_experiments import most_moved
+from ..steps.explaining import most_moved
 
 if TYPE_CHECKING:
-    from ..steps.findings import Findings
+    from ..steps.findings import Answer
 
 
-def _before(part: Findings) -> int:
+def _before(part: Answer) -> int:
     """Return how many samples of the record of a part are those of a healthy record, and not of the experiment."""
     return (part.healthy or 0) if part.healthy_record else 0
 
 
-def own_fit(part: Findings) -> Array:
+def own_fit(part: Answer) -> Array:
     """Return 100 (1 - |y - simulated y| / |y - mean of y|) of each output (p,) over the samples of the experiment itself."""
     assert part.residual is not None
     start = _before(part)
@@ -37,7 +37,7 @@ def own_fit(part: Findings) -> Array:
     return np.asarray(100 * (1 - np.sqrt(squares) / np.where(spread > 0, spread, 1.0)))
 
 
-def experiments(answer: Findings) -> list[dict[str, Any]]:
+def experiments(answer: Answer) -> list[dict[str, Any]]:
     """Return what was found in each experiment, whose samples are counted from its own first one."""
     skipped = 1 if answer.healthy_record and len(answer.initial_states) > len(answer.experiments) else 0
     rows = []
@@ -65,7 +65,7 @@ def experiments(answer: Findings) -> list[dict[str, Any]]:
     return rows
 
 
-def experiment_lines(answer: Findings) -> Iterator[str]:
+def experiment_lines(answer: Answer) -> Iterator[str]:
     """Yield the section on the experiments, where there are several."""
     if not answer.parts:
         return
@@ -88,7 +88,7 @@ def experiment_lines(answer: Findings) -> Iterator[str]:
             yield f"experiment {number}: {part.shift_isolation.answer}"
 
 
-def numbered(answer: Findings) -> Iterator[tuple[int, int, int, Findings]]:
+def numbered(answer: Answer) -> Iterator[tuple[int, int, int, Answer]]:
     """Yield for each experiment its number, the first of its samples in the record of its part, where these stand among all samples, and
     the part."""
     place = (answer.healthy or 0) if answer.healthy_record and answer.parts else 0

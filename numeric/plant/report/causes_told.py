@@ -26,7 +26,7 @@ from .by_experiment import numbered
 
 if TYPE_CHECKING:
     from ...method.space.shift_isolation import ShiftIsolation
-    from ..steps.findings import Findings
+    from ..steps.findings import Answer
 
 RESIDUAL = "residual.csv"
 MOST_ONSETS = 6  # that the summary tells
@@ -34,7 +34,7 @@ EARLY = 4  # onsets in the first of so many parts of a record may be its start
 CAUSES_DRAWN = ("residual.png", "isolation.png", "shift-causes.png")
 
 
-def onset_lines(answer: Findings) -> Iterator[str]:
+def onset_lines(answer: Answer) -> Iterator[str]:
     """Yield the section on the onset, where one was looked for."""
     found, outputs = answer.onset, answer.record.outputs
     if found is None:
@@ -75,14 +75,14 @@ def onset_lines(answer: Findings) -> Iterator[str]:
     yield f"why: {found.reason}; {RESIDUAL} has the residual, sample by sample"
 
 
-def after_healthy(answer: Findings, sample: int) -> str:
+def after_healthy(answer: Answer, sample: int) -> str:
     """Return which sample of the record after the healthy one this is, where that is a record of its own."""
     if not answer.healthy_record or answer.healthy is None or sample < answer.healthy:
         return ""
     return f", sample {sample - answer.healthy} of the record after the healthy one"
 
 
-def isolation_lines(answer: Findings) -> Iterator[str]:
+def isolation_lines(answer: Answer) -> Iterator[str]:
     """Yield the section on single causes, where there is a fault space."""
     found, shift = answer.isolation, answer.shift_isolation
     if found is None and shift is None:
@@ -122,7 +122,7 @@ def _shift_lines(found: ShiftIsolation) -> Iterator[str]:
             yield f"    {cause.kind} {cause.channel}: {cause.answer}, {size}, chance {cause.p_value:.2g}"
 
 
-def told(answer: Findings) -> dict[str, Any]:
+def told(answer: Answer) -> dict[str, Any]:
     """Return all of it in JSON, null where nothing was asked."""
     onset, names = answer.onset, answer.record.outputs
     return {
@@ -136,11 +136,11 @@ def _sizes(names: tuple[str, ...], sizes: Any) -> str:
     return ", ".join(f"{name} {size:.3g}" for name, size in zip(names, sizes, strict=True))
 
 
-def _bounds(answer: Findings) -> list[int]:
+def _bounds(answer: Answer) -> list[int]:
     return [] if answer.onset is None else [onset.sample for onset in answer.onset.onsets]
 
 
-def residual_table(answer: Findings, path: Path, on_progress: Progress) -> None:
+def residual_table(answer: Answer, path: Path, on_progress: Progress) -> None:
     """Write a line a sample: its number, how many onsets came before, the residual of each output in digits that give the float back. Where
     there are several experiments, the number of each stands first, and samples are counted in each."""
     rest = answer.residual
@@ -160,12 +160,12 @@ def residual_table(answer: Findings, path: Path, on_progress: Progress) -> None:
                 on_progress("writing the residual", done, len(rest.store))
 
 
-def stretches(answer: Findings, first: int, until: int) -> Any:
+def stretches(answer: Answer, first: int, until: int) -> Any:
     """Return how many onsets came before each of the samples from `first` to before `until`."""
     return np.searchsorted(_bounds(answer), np.arange(first, until), side="right")
 
 
-def causes_drawn(answer: Findings) -> list[tuple[str, tuple[float, float], Callable[[Any], Any]]]:
+def causes_drawn(answer: Answer) -> list[tuple[str, tuple[float, float], Callable[[Any], Any]]]:
     """Return name, size and what to do with a figure."""
     rest, onset, isolation = answer.residual, answer.onset, answer.isolation
     drawings: list[tuple[str, tuple[float, float], Callable[[Any], Any]]] = []

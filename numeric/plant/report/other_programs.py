@@ -22,28 +22,28 @@ from .causes_told import stretches
 
 if TYPE_CHECKING:
     from ...method.model.models import StateSpaceModel
-    from ..steps.findings import Findings
+    from ..steps.findings import Answer
 
 UNKNOWN = -1.0  # the sample time that MATLAB's `ss` takes where it is not stated
 
 
-def _model(answer: Findings) -> StateSpaceModel:
+def _model(answer: Answer) -> StateSpaceModel:
     if answer.model is None:
         raise InvalidData("there is no model to hand on, since the order is undecided: state an order")
     return answer.model.model
 
 
-def to_control(answer: Findings) -> Any:
+def to_control(answer: Answer) -> Any:
     """Return the model as control.StateSpace, from the inputs to the outputs by their names."""
     return _model(answer).to_control(dt=answer.dt, inputs=answer.record.inputs, outputs=answer.record.outputs)
 
 
-def to_scipy(answer: Findings) -> Any:
+def to_scipy(answer: Answer) -> Any:
     """Return the model as scipy.signal.dlti with the sample time, 1 where none was stated."""
     return _model(answer).to_scipy(dt=answer.dt)
 
 
-def to_mat(answer: Findings, path: str | os.PathLike[str]) -> None:
+def to_mat(answer: Answer, path: str | os.PathLike[str]) -> None:
     """Write A, B, C, D, F, G, x0, names and sample time into a MAT file; F and G have no columns where no pair was found."""
     from scipy.io import savemat
 
@@ -57,7 +57,7 @@ def to_mat(answer: Findings, path: str | os.PathLike[str]) -> None:
         savemat(stream, content | names | {"dt": UNKNOWN if answer.dt is None else answer.dt}, oned_as="column")
 
 
-def to_pandas(answer: Findings) -> Any:
+def to_pandas(answer: Answer) -> Any:
     """Return a DataFrame, a row a sample, with columns ("input", name), ("output", name), ("residual", name of the output),
     ("onset", "before"), how many onsets came before, and ("fault", v1, ..): NaN where the signal is not determined. Of several experiments
     the first column is ("experiment", "number"), 0 for a healthy record before them, and samples count in each."""

@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike
 from ...data.plain import plain
 
 if TYPE_CHECKING:
-    from ..steps.findings import Findings
+    from ..steps.findings import Answer
 
 MOST = 12  # modes that the summary tells
 
@@ -60,7 +60,7 @@ def modes(poles: ArrayLike, dt: float) -> list[Mode]:
     return found
 
 
-def sample_time(answer: Findings) -> tuple[float | None, str]:
+def sample_time(answer: Answer) -> tuple[float | None, str]:
     """Return the sample time in seconds, None where nothing tells it, and what tells it."""
     clock = answer.record.clock
     if answer.dt is None:
@@ -70,7 +70,7 @@ def sample_time(answer: Findings) -> tuple[float | None, str]:
     return answer.dt, "stated"
 
 
-def mode_lines(answer: Findings) -> Iterator[str]:
+def mode_lines(answer: Answer) -> Iterator[str]:
     """Yield what the poles are in physical units, where the sample time is known."""
     dt, source = sample_time(answer)
     if dt is None or answer.model is None:
@@ -81,7 +81,7 @@ def mode_lines(answer: Findings) -> Iterator[str]:
         yield f"modes: {'; '.join(told[:MOST])}{f'; ... ({len(told)} in all)' if len(told) > MOST else ''}"
 
 
-def physical(answer: Findings) -> dict[str, Any]:
+def physical(answer: Answer) -> dict[str, Any]:
     """Return the sample time, what tells it, the Nyquist frequency and the modes; null where they are not known."""
     dt, source = sample_time(answer)
     known = dt is not None and answer.model is not None

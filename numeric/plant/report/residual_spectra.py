@@ -17,7 +17,7 @@ from ...data.records import SampleStore
 from ...method.plotting import BLUE, GREY, MOST_CHANNELS, ORANGE, finished
 
 if TYPE_CHECKING:
-    from ..steps.findings import Findings
+    from ..steps.findings import Answer
 
 LONGEST, SHORTEST = 512, 16  # samples of a segment
 SEGMENTS = 8  # at least, where a stretch has room for them
@@ -55,7 +55,7 @@ def segment_of(samples: int) -> int:
     return 0 if longest < SHORTEST else int(min(LONGEST, 2 ** int(np.log2(longest))))
 
 
-def panels(answer: Findings) -> list[tuple[str, list[tuple[str, Array]]]]:
+def panels(answer: Answer) -> list[tuple[str, list[tuple[str, Array]]]]:
     """Return for each panel its name and its curves (what, power density); none where the record is too short.
 
     The residual of an output has two curves where it changes: before the first onset, or while healthy, and after it.

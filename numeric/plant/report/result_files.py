@@ -1,4 +1,4 @@
-"""This is what `faultspace identify` writes of the Findings: JSON and the files of its folder.
+"""This is what `faultspace identify` writes of the Answer: JSON and the files of its folder.
 
 document     the JSON-ready dict of --json (schemas/identify.schema.json)
 write        all files, written elsewhere first and then renamed into place; says which, and what is missing and why
@@ -39,14 +39,14 @@ from .summary import MODEL_FILE, advice, fit, markdown, summary
 
 if TYPE_CHECKING:
     from ...method.model.models import StateSpaceModel
-    from ..steps.findings import Findings
+    from ..steps.findings import Answer
 
 MODEL, SPACE, SIGNAL, SUMMARY, PAGE = MODEL_FILE, "fault-space.json", "fault-signal.csv", "summary.md", "report.html"
 FREQUENCIES = 32  # of the transfer function with standard errors
 NAMES = (MODEL, SPACE, SIGNAL, RESIDUAL, SUMMARY, PAGE, *PICTURES)
 
 
-def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str) -> dict[str, Any]:
+def document(answer: Answer, data: str, *, worded: Callable[[str], str] = str) -> dict[str, Any]:
     """Return everything in JSON: null where there is no answer, complex numbers as [real, imaginary]; `worded` as in `summary`."""
     record, model = answer.record, answer.model
     result: dict[str, Any] = {
@@ -67,6 +67,7 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
         "n_v_at_least": answer.at_least,
         "n_v_given": answer.n_v_given,
         "n_v_reason": worded(answer.reason),
+        "n_v_because": [reason.to_json() for reason in answer.because],
         "n_v_from": answer.counted_by,
         "healthy_until": answer.healthy,
         "healthy_record": answer.healthy_record,
@@ -165,7 +166,7 @@ def _of_reduction(model: ReducedModel) -> dict[str, Any]:
 
 
 def write(
-    answer: Findings, out: Path, data: str, on_progress: Progress, *, worded: Callable[[str], str] = str
+    answer: Answer, out: Path, data: str, on_progress: Progress, *, worded: Callable[[str], str] = str
 ) -> tuple[list[str], list[str]]:
     """Write the files into the folder `out`; return their names, and remarks on what could not be had. `worded` is as in `summary`.
 
@@ -190,7 +191,7 @@ def write(
     return written, remarks
 
 
-def _tables(answer: Findings, folder: Path, on_progress: Progress) -> list[str]:
+def _tables(answer: Answer, folder: Path, on_progress: Progress) -> list[str]:
     """Write everything but pictures and summary; remarks on what could not be had."""
     remarks: list[str] = []
     if answer.model is not None:
@@ -208,7 +209,7 @@ def _tables(answer: Findings, folder: Path, on_progress: Progress) -> list[str]:
     return remarks
 
 
-def _model(answer: Findings, inner: StateSpaceModel) -> dict[str, Any]:
+def _model(answer: Answer, inner: StateSpaceModel) -> dict[str, Any]:
     model = inner.to_json() | {"inputs": list(answer.record.inputs), "outputs": list(answer.record.outputs)}
     if answer.dt is not None:
         model |= {"dt": answer.dt}
@@ -218,7 +219,7 @@ def _model(answer: Findings, inner: StateSpaceModel) -> dict[str, Any]:
     return model
 
 
-def of_monitor(answer: Findings) -> tuple[dict[str, Any] | None, list[str]]:
+def of_monitor(answer: Answer) -> tuple[dict[str, Any] | None, list[str]]:
     """Return what a monitor needs, None where the record does not tell it, with a remark that says why."""
     try:
         return learned_of(answer).to_json(), []
@@ -226,7 +227,7 @@ def of_monitor(answer: Findings) -> tuple[dict[str, Any] | None, list[str]]:
         return None, [f"{MODEL}, what `monitor` needs: {str(error).removeprefix('healthy: ')}"]
 
 
-def _signal_table(answer: Findings, path: Path, on_progress: Progress) -> None:
+def _signal_table(answer: Answer, path: Path, on_progress: Progress) -> None:
     """Write a line a sample: its number, whether v is determined there (1 or 0), v in digits that give the float back. Where there are
     several experiments, the number of each stands first, samples are counted in each, and those without a signal have no lines."""
     several, done = ["experiment"] if answer.parts else [], 0
@@ -248,7 +249,7 @@ def _signal_table(answer: Findings, path: Path, on_progress: Progress) -> None:
                 on_progress("writing the fault signal", done, len(answer.record))
 
 
-def _space(answer: Findings) -> dict[str, Any] | None:
+def _space(answer: Answer) -> dict[str, Any] | None:
     space = answer.fault_space
     if space is None:
         return None

@@ -21,7 +21,7 @@ from .causes_told import after_healthy
 from .summary import fit, markdown, missed_levels
 
 if TYPE_CHECKING:
-    from ..steps.findings import Findings
+    from ..steps.findings import Answer
 
 CAPTIONS = {
     "outputs.png": (
@@ -79,7 +79,7 @@ CAPTIONS = {
 }
 
 
-def report(answer: Findings, lines: Sequence[str], folder: Path, data: str) -> str:
+def report(answer: Answer, lines: Sequence[str], folder: Path, data: str) -> str:
     """Return the page of the summary's `lines` with the pictures that the folder has."""
     drawn = [
         Picture((folder / name).read_bytes(), section, caption, words)
@@ -94,7 +94,7 @@ def report(answer: Findings, lines: Sequence[str], folder: Path, data: str) -> s
     return page(f"{quote_path(data)}: model and faults", markdown(lines), tiles=list(tiles(answer)), pictures=drawn, foot=foot)
 
 
-def tiles(answer: Findings) -> Iterator[Tile]:
+def tiles(answer: Answer) -> Iterator[Tile]:
     """Yield the answers, each with what it rests on; an answer that is not decided says so in words."""
     model, orders, explained = answer.model, answer.orders, fit(answer)
     if model is None:
@@ -133,7 +133,7 @@ def tiles(answer: Findings) -> Iterator[Tile]:
             yield Tile("Fault signal", f"explains {100 * answer.explained:.4g} %", f"This is the share of the residual. {noise}")
 
 
-def _faults(answer: Findings) -> Tile:
+def _faults(answer: Answer) -> Tile:
     """Return what is said of the number of faults; a 0 has its condition, or what moved the mean, beside it."""
     moved = answer.mean is not None and answer.mean.shifted
     shift = " The mean of the residual moved: a constant fault has no rank." if moved else ""
@@ -151,7 +151,7 @@ def _faults(answer: Findings) -> Tile:
     return Tile("Faults", counted(answer.n_v, "fault"), rests)
 
 
-def _causes(answer: Findings) -> Iterator[Tile]:
+def _causes(answer: Answer) -> Iterator[Tile]:
     """Yield when the residual changes, and which single cause explains it, where these were asked."""
     onset, shift, isolation = answer.onset, answer.shift_isolation, answer.isolation
     if onset is not None and onset.onsets:

@@ -1,7 +1,7 @@
 """These are the pictures of `faultspace identify`, one a file.
 
 main_picture the one picture of `Identification.plot`
-pictures     draws what the Findings holds into a folder; remarks on what could not be had
+pictures     draws what the Answer holds into a folder; remarks on what could not be had
 drawn        one picture into a file, or the remark that says why there is none
 PICTURES     the names of the files
 
@@ -33,7 +33,7 @@ from ....base.writing import new_file
 from ...method import plotting as drawing
 from ...method.model.reduced_model import ReducedModel
 from ...method.signal.residual_sizes import loudest
-from ..steps.several_experiments import most_moved
+from ..steps.explaining import most_moved
 from . import residual_spectra as spectra
 from .causes_told import CAUSES_DRAWN, causes_drawn
 
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from ...method.model.moesp_model import MoespModel
     from ...method.model.residuals import ResidualSignal
     from ...method.signal.reconstruction import Reconstruction
-    from ..steps.findings import Findings
+    from ..steps.findings import Answer
 
 PICTURES = (
     "singular-values.png", "window-ranks.png", "noise-levels.png", "zeros-and-poles.png", "outputs.png", "fault-signal.png", "spectra.png",
@@ -51,7 +51,7 @@ PICTURED = 300  # samples of a detail
 WIDE, SQUARE, TALL = (8.0, 4.6), (5.2, 5.2), (8.0, 6.4)  # inches
 
 
-def pictures(answer: Findings, folder: Path) -> list[str]:
+def pictures(answer: Answer, folder: Path) -> list[str]:
     """Draws what there is; without matplotlib the sentence that says so."""
     try:
         figure: Any = import_module("matplotlib.figure")
@@ -83,7 +83,7 @@ def drawn(path: Path, make: Callable[[], Any]) -> list[str]:
     return []
 
 
-def main_picture(answer: Findings, ax: Any = None) -> Any:
+def main_picture(answer: Answer, ax: Any = None) -> Any:
     """Draw the fault signal where there is one, else the last samples of the outputs, measured and simulated, into `ax` and return it.
 
     Raises InvalidData where there is no model to draw anything of."""
@@ -97,7 +97,7 @@ def main_picture(answer: Findings, ax: Any = None) -> Any:
     return drawing.plot_measured_and_simulated(y, simulated, names=answer.record.outputs, first=first, ax=ax)
 
 
-def _last_outputs(answer: Findings, rest: ResidualSignal) -> tuple[Any, Any, int]:
+def _last_outputs(answer: Answer, rest: ResidualSignal) -> tuple[Any, Any, int]:
     """Return the last PICTURED samples of the outputs, measured and simulated, and the number of the first of them."""
     N = len(answer.record)
     first = max(N - PICTURED, 0)
@@ -105,7 +105,7 @@ def _last_outputs(answer: Findings, rest: ResidualSignal) -> tuple[Any, Any, int
     return y, y - rest.store.read(first, N), first
 
 
-def _drawings(answer: Findings) -> list[tuple[str, tuple[float, float], Callable[[Any], Any]]]:
+def _drawings(answer: Answer) -> list[tuple[str, tuple[float, float], Callable[[Any], Any]]]:
     """Return name, size and what to do with a figure; of several experiments that in which the residual varies most is drawn."""
     answer = most_moved(answer)
     model, dimension, rest, signal = answer.model, answer.dimension, answer.residual, answer.signal

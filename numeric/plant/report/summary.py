@@ -1,4 +1,4 @@
-"""This is what `faultspace identify` says to people: the Findings as lines of Markdown, on the terminal and in summary.md.
+"""This is what `faultspace identify` says to people: the Answer as lines of Markdown, on the terminal and in summary.md.
 
 summary     the lines: model, faults, fault space, fault signal, notes, what to try next
 advice      what to try next, from what was found
@@ -22,13 +22,14 @@ from ....base.sheets import counted
 from ...method.model.invariants import half_transfers, system_matrix
 from ...method.model.reduced_model import ReducedModel
 from ..healthy.mean_shift import POWER
+from ..steps.findings import Because
 from ..steps.operating_point import ZERO
 from .by_experiment import experiment_lines
 from .causes_told import after_healthy, isolation_lines, onset_lines
 from .physical import mode_lines
 
 if TYPE_CHECKING:
-    from ..steps.findings import Findings
+    from ..steps.findings import Answer
 
 NOISE = "noise fills every direction of outputs and inputs"
 NO_NOISE = "outputs and inputs obey a law without noise, to rounding"
@@ -42,7 +43,7 @@ _BOLD = re.compile(r"(?:(.*? |)\*\*(\S.*?)\*\*(?![\w*]))?(.*)", re.DOTALL)
 LEVEL_MISSED = np.sqrt(0.5)  # of what is missed, by size, so that half of its squares are a constant
 
 
-def fit(answer: Findings) -> Array | None:
+def fit(answer: Answer) -> Array | None:
     """Return 100 (1 - |y - simulated| / |y - mean|) for each output (p,), on the data that identified the model."""
     if answer.sizes is None:
         return None
@@ -51,7 +52,7 @@ def fit(answer: Findings) -> Array | None:
     return np.asarray(100 * (1 - answer.sizes.early_norm / np.where(spread > 0, spread, 1.0)))
 
 
-def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) -> Iterator[str]:
+def summary(answer: Answer, data: str, *, worded: Callable[[str], str] = str) -> Iterator[str]:
     """Yield the answer for people, as lines of Markdown; `worded` rewrites notes and advice, which name arguments as Python does."""
     record, model = answer.record, answer.model
     yield f"# {quote_path(data)}"
@@ -88,8 +89,7 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
         yield f"number of independent faults n_v: **{_count(answer)}{_condition(answer)}**"
         yield from _changed_all_the_same(answer)
         yield f"why: {worded(answer.reason)}"
-        said = (answer.reason, answer.against.reason if answer.against else "", answer.dimension.reason if answer.dimension else "")
-        if any(word in reason for reason in said for word in (" law", " row")):
+        if _told_of_laws(answer):
             yield (
                 "law, or row: an equation that the last few samples of the channels obey up to noise, whatever the faults do; dB: of the "
                 "power of what it leaves"
@@ -106,19 +106,24 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
         yield from isolation_lines(answer)
         yield from _signal_lines(answer)
     if answer.doubts:
-        yield ""
-        yield "## Doubts"
+        yield from ("", "## Doubts")
         yield from (f"- {worded(row.line)}" for row in answer.doubts)
     if answer.notes:
-        yield ""
-        yield "## Notes"
+        yield from ("", "## Notes")
         yield from (f"- {worded(note)}" for note in answer.notes)
     yield ""
     yield "## What to try next"
     yield from (f"- {worded(line)}" for line in advice(answer))
 
 
-def operating_point_line(answer: Findings) -> str:
+def _told_of_laws(answer: Answer) -> bool:
+    """Say whether the reasons of the count speak of laws, or rows."""
+    ranks, broken = answer.dimension, any(reason.code == Because.LAWS_BROKEN for reason in answer.because)
+    asked = bool(answer.count and answer.count.tests) or broken
+    return asked or (ranks is not None and (ranks.regime == "noise" or ranks.gaps[-1:] == (0,)))
+
+
+def operating_point_line(answer: Answer) -> str:
     """Return about which point the channels were taken, and why."""
     point = answer.operating_point
     if point.of == ZERO:
@@ -129,7 +134,7 @@ def operating_point_line(answer: Findings) -> str:
     return f"operating point: the means of the {point.of}{where} ({point.reason})"
 
 
-def missed_levels(answer: Findings, explained: Array) -> list[str]:
+def missed_levels(answer: Answer, explained: Array) -> list[str]:
     """Return the outputs with a fit below zero of which the model misses mostly the level: half of the squares that are left, or more."""
     sizes, samples = answer.sizes, answer.modelled
     poor = np.flatnonzero(explained < 0)
@@ -141,7 +146,7 @@ def missed_levels(answer: Findings, explained: Array) -> list[str]:
     return [answer.record.outputs[i] for i in poor if abs(total[i]) / np.sqrt(samples) > LEVEL_MISSED * sizes.early_norm[i]]
 
 
-def _below_zero(answer: Findings, explained: Array) -> Iterator[str]:
+def _below_zero(answer: Answer, explained: Array) -> Iterator[str]:
     """Yield what a fit below zero means, and whether the level of the output is what is missed."""
     poor = [name for name, value in zip(answer.record.outputs, explained, strict=True) if value < 0]
     if poor:
@@ -153,7 +158,7 @@ def _below_zero(answer: Findings, explained: Array) -> Iterator[str]:
         )
 
 
-def _why_the_order(answer: Findings) -> str:
+def _why_the_order(answer: Answer) -> str:
     model, orders = answer.model, answer.orders
     assert model is not None
     if orders is not None:
@@ -172,7 +177,7 @@ def _why_the_order(answer: Findings) -> str:
     )
 
 
-def _orders(answer: Findings) -> Iterator[str]:
+def _orders(answer: Answer) -> Iterator[str]:
     """Yield the evidence for the order as a table, where it was left open."""
     orders = answer.orders
     if orders is None:
@@ -199,7 +204,7 @@ def _pairs(poles: Sequence[complex]) -> str:
     return " ".join(texts) + (" .." if len(upper) > MOST_POLES else "")
 
 
-def _certainty(answer: Findings) -> Iterator[str]:
+def _certainty(answer: Answer) -> Iterator[str]:
     """Yield the poles and static gains, with standard errors where the model has them."""
     found, record = answer.model, answer.record
     assert found is not None
@@ -229,7 +234,7 @@ def _error(value: complex) -> str:
     return f"{value:.2g}" if not np.iscomplexobj(value) else f"({value.real:.2g}, {value.imag:.2g}i)"
 
 
-def _healthy_lines(answer: Findings) -> Iterator[str]:
+def _healthy_lines(answer: Answer) -> Iterator[str]:
     """Yield both counts, where there are two."""
     against, alone = answer.against, answer.dimension
     if against is None:
@@ -240,7 +245,7 @@ def _healthy_lines(answer: Findings) -> Iterator[str]:
     yield f"from the residual alone: {_said(alone.n_v)} ({alone.reason}){taken}" if alone else f"from the residual alone: none{taken}"
 
 
-def _changed_all_the_same(answer: Findings) -> Iterator[str]:
+def _changed_all_the_same(answer: Answer) -> Iterator[str]:
     """Yield, where no number is told, that the residual has become another one all the same."""
     onset = answer.onset
     if answer.n_v is None and onset is not None and onset.onsets:
@@ -254,7 +259,7 @@ def _changed_all_the_same(answer: Findings) -> Iterator[str]:
         )
 
 
-def _law_lines(answer: Findings) -> Iterator[str]:
+def _law_lines(answer: Answer) -> Iterator[str]:
     """Yield what was asked of the laws of outputs and inputs, the noise that they leave, and what the ranks say beside them."""
     count, ranks = answer.count, answer.dimension
     if count is None:
@@ -269,7 +274,7 @@ def _law_lines(answer: Findings) -> Iterator[str]:
         yield f"from the ranks of the residual, for comparison: {_said(ranks.n_v)} ({ranks.reason})"
 
 
-def _condition(answer: Findings) -> str:
+def _condition(answer: Answer) -> str:
     """Return what a 0 of the laws rests on where nobody has said how large the noise is."""
     count = answer.count
     if answer.n_v != 0 or answer.n_v_given or answer.noise_level is not None or count is None or count.noise_power is None:
@@ -277,12 +282,12 @@ def _condition(answer: Findings) -> str:
     return f", if this is the noise of each output: {_by_output(answer, np.sqrt(count.noise_power))} (deviation)"
 
 
-def _by_output(answer: Findings, sizes: Array) -> str:
+def _by_output(answer: Answer, sizes: Array) -> str:
     """Return one size (p,) for each output, beside its name."""
     return _several([f"{name} {size:.3g}" for name, size in zip(answer.record.outputs, sizes, strict=True)])
 
 
-def _count(answer: Findings) -> str:
+def _count(answer: Answer) -> str:
     if answer.n_v is not None:
         return str(answer.n_v)
     if answer.possible:
@@ -290,7 +295,7 @@ def _count(answer: Findings) -> str:
     return f"undecided, at least {answer.at_least}" if answer.at_least else "undecided"
 
 
-def _mean_lines(answer: Findings) -> Iterator[str]:
+def _mean_lines(answer: Answer) -> Iterator[str]:
     """Yield what moved the mean, and by how much, beside the rank."""
     mean, sizes, record = answer.mean, answer.sizes, answer.record
     if mean is None or sizes is None:
@@ -305,7 +310,7 @@ def _mean_lines(answer: Findings) -> Iterator[str]:
     yield "mean by output: " + _several([f"{name} {d:.4g} +- {e:.2g}{sigma.format(size)}" for name, d, e, size in rows])
 
 
-def _visible_lines(answer: Findings) -> Iterator[str]:
+def _visible_lines(answer: Answer) -> Iterator[str]:
     """Yield what would have been seen, where little or nothing was."""
     mean = answer.mean
     if answer.healthy is None or mean is None:
@@ -320,7 +325,7 @@ def _said(number: int | None) -> str:
     return "undecided" if number is None else str(number)
 
 
-def _space_lines(answer: Findings) -> Iterator[str]:
+def _space_lines(answer: Answer) -> Iterator[str]:
     space = answer.fault_space
     if space is None:
         return
@@ -353,7 +358,7 @@ def _space_lines(answer: Findings) -> Iterator[str]:
     yield from (f"    {line}" for line in _matrix(space.basis))
 
 
-def _signal_lines(answer: Findings) -> Iterator[str]:
+def _signal_lines(answer: Answer) -> Iterator[str]:
     signal, space, record = answer.signal, answer.fault_space, answer.record
     if answer.explained is not None and answer.by_noise is not None:
         yield ""
@@ -385,7 +390,7 @@ def _signal_lines(answer: Findings) -> Iterator[str]:
     yield "its scale, sign and mixture go with the columns of F and G in the model file"
 
 
-def advice(answer: Findings) -> list[str]:
+def advice(answer: Answer) -> list[str]:
     """Say what to try next: about what is undecided first, and how to make sure of what is not."""
     model, record, orders = answer.model, answer.record, answer.orders
     if model is None:

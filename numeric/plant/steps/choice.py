@@ -1,9 +1,8 @@
-"""The last steps of `faultspace identify`: the fault space of what was counted, and one pair (F, G) out of it with its signal.
+"""The last steps of `identify`: the fault space of what was counted, and one pair (F, G) out of it with its signal.
 
-with_space    the Findings with the fault space
+space_of      the fault space, or why there is none
 noise_mix     the mixture of outputs in which the space is sought where healthy samples tell the noise
-with_signal   the Findings with F, G and the signal, or a note why they are withheld: n_z is undecided, or the signal explains no
-              more than it would of noise
+signals_of    F, G and the signals, or why they are withheld: n_z is undecided, or a signal explains no more than it would of noise
 choose_pair   n_v columns (F, G) out of a fault space, whose signal is then reconstructed
 largest       the largest |y| of each output
 about_own_means   experiments as `count_faults` and the fault space take them, each about its means
@@ -29,12 +28,12 @@ from ...method.rows.known_noise import space_in_known_noise, whitening
 from ...method.rows.space_by_rows import BEYOND, fault_space_by_rows, identified_fault_space
 from ...method.signal.reconstruction import Reconstruction, reconstruct_fault
 from ...method.signal.residual_sizes import loudest
-from ...method.space.by_ranks import FaultSpaceEstimate, fault_space
+from ...method.space.by_ranks import FaultSpaceEstimate, told_fault_space
 from ..changes.table_rows import FREEZING, LOSS
 from ..doubt.listing import named
 from ..healthy.explained_share import noise_share
-from .findings import Findings
-from .several_experiments import for_each, looked_at, most_moved
+from .explaining import looked_at, most_moved
+from .findings import Counted, CountedBy, Explained, Signal, Signals, Space
 
 ROUNDING = 1e-12  # of the outputs: a residual below it is rounding
 MEANS_FROM = 1 << 14  # samples that means and shares are taken of: the regressors of a test are many times as many numbers
@@ -56,136 +55,125 @@ FROM_IDENTIFIED = (
 )
 
 
-def with_space(answer: Findings, on_progress: Progress) -> Findings:
+def space_of(plant: Explained, found: Counted, on_progress: Progress) -> Space:
     """Return the space of all fault columns, on the samples that faults were counted on."""
-    model, rest, faults = answer.model, answer.residual, answer.n_v
-    if not faults or model is None or rest is None:
-        return answer
-    if answer.news is not None and answer.news < faults:
-        return replace(answer, notes=(*answer.notes, f"no fault space is given: {FORETOLD}"))
-    if quiet := _quieter(answer):
+    model, faults = plant.model, found.count.n_v
+    if not faults:
+        return Space(None)
+    if found.news is not None and found.news < faults:
+        return Space(None, (f"no fault space is given: {FORETOLD}",))
+    if quiet := _quieter(plant, found):
         lost = (
             f"no fault space is given: {named(quiet)} {'has' if len(quiet) == 1 else 'have'} lost variance since the healthy samples, as "
             "a sensor that is stuck, or whose gain has fallen, does; such a fault is no signal that is added, and its space misleads"
         )
-        return replace(answer, notes=(*answer.notes, lost))
+        return Space(None, (lost,))
     on_progress("finding the fault space", 0, 0)
-    A, C = model.model.A, model.model.C
+    told = "given" if found.count.by == CountedBy.GIVEN else "counted"
+    notes: tuple[str, ...] = ()
     # An exact record gives exact rows, and an exact space where the model is.
-    space, notes = None if answer.exact and not isinstance(model, ReducedModel) else _by_laws(answer, faults), answer.notes
-    if isinstance(space, str):
-        notes += (f"the fault space is from the residual: {space}",)
-    if not isinstance(space, FaultSpaceEstimate):
-        try:
-            space = fault_space(beyond_rounding(answer), A, C, n_v=faults)
-        except InvalidData as error:
-            return replace(answer, notes=(*notes, f"no fault space is given: {error}"))
-        if space.method == "likelihood":
-            notes += (FROM_IDENTIFIED,)
-        if answer.exact and not answer.healthy:
-            reason = f"undecided: {ESTIMATED}; {space.reason.removeprefix('undecided: ')}"
-            space = replace(space, decided=False, reason=reason, error_bound=None)
-    return replace(answer, notes=notes, fault_space=space if answer.n_v_given else replace(space, reason=said_counted(space.reason)))
+    if not plant.exact or isinstance(model, ReducedModel):
+        space = _by_laws(plant, found, faults)
+        if isinstance(space, FaultSpaceEstimate):
+            return Space(replace(space, reason=f"{space.reason}; n_v as {told}"))
+        notes = (f"the fault space is from the residual: {space}",)
+    try:
+        space = told_fault_space(beyond_rounding(plant), model.model.A, model.model.C, n_v=faults, told=told)
+    except InvalidData as error:
+        return Space(None, (*notes, f"no fault space is given: {error}"))
+    if space.method == "likelihood":
+        notes += (FROM_IDENTIFIED,)
+    if plant.exact and not plant.healthy:
+        space = replace(space.in_doubt(ESTIMATED), error_bound=None)
+    return Space(space, notes)
 
 
-def _quieter(answer: Findings) -> list[str]:
+def _quieter(plant: Explained, found: Counted) -> list[str]:
     """Return the outputs that the table of changes sees to have lost variance, unless a sensor freezes and thaws, which adds signals."""
-    tables = [one.changes for one in answer.experiments if answer.healthy and one.changes is not None]
-    seen = [row for changes in tables for row in changes.seen]
+    seen = [row for changes in found.changes if plant.healthy and changes is not None for row in changes.seen]
     return [] if any(row.kind == FREEZING for row in seen) else sorted({row.channel for row in seen if row.kind == LOSS})
 
 
-def _by_laws(answer: Findings, faults: int) -> FaultSpaceEstimate | str:
+def _by_laws(plant: Explained, found: Counted, faults: int) -> FaultSpaceEstimate | str:
     """Return the space from the laws of outputs and inputs, about their means as they were counted, or the reason why there is none."""
-    record, model, rows = answer.record, answer.model, max(answer.record.p - faults, 1)
-    assert model is not None
-    if not affordable(record.p + record.n_u, -(-(model.order + BEYOND) // rows)):
+    record, model, laws = plant.record, plant.model, found.laws
+    if not affordable(record.p + record.n_u, -(-(model.order + BEYOND) // max(record.p - faults, 1))):
         outputs = f"{counted(record.p, 'output')} with {counted(faults, 'fault')}"
         return f"order {model.order} is too high for the laws of {outputs} and of the inputs"
-    data = about_own_means(record.stretches(*answer.held))
-    count, level = answer.count, answer.noise_level
-    if level is None and count is not None and count.n_v == faults and count.noise_power is not None:
-        level = np.sqrt(count.noise_power)
+    data = about_own_means(record.stretches(*plant.held))
+    level = plant.noise_level
+    if level is None and laws is not None and laws.n_v == faults and laws.noise_power is not None:
+        level = np.sqrt(laws.noise_power)
     try:
-        mix = noise_mix(answer)
+        mix = noise_mix(plant)
         if isinstance(model, ReducedModel) and mix is not None:
-            space = space_in_known_noise(*data, model, mix, n_v=faults)
-        elif isinstance(model, ReducedModel):
-            space = identified_fault_space(*data, model, n_v=faults, noise_level=level)
-        else:
-            space = fault_space_by_rows(*data, model.A, model.C, n_v=faults, noise_level=level)
+            return space_in_known_noise(*data, model, mix, n_v=faults)
+        if isinstance(model, ReducedModel):
+            return identified_fault_space(*data, model, n_v=faults, noise_level=level)
+        return fault_space_by_rows(*data, model.A, model.C, n_v=faults, noise_level=level)
     except (InvalidData, np.linalg.LinAlgError) as error:
         return str(error)
-    return replace(space, reason=f"{space.reason}; n_v as given")
 
 
-def noise_mix(answer: Findings) -> Array | None:
+def noise_mix(plant: Explained) -> Array | None:
     """Return the mixture (p, p) of the outputs that has white noise across them by the healthy samples; None without such samples, and for
     a model of PI-MOESP, of which the space is sought in the outputs themselves."""
-    rest = answer.residual
-    if not isinstance(answer.model, ReducedModel) or not answer.healthy or rest is None or rest.fitted or rest.covariance is None:
+    rest = plant.residual
+    if not isinstance(plant.model, ReducedModel) or not plant.healthy or rest.fitted or rest.covariance is None:
         return None
     return whitening(rest.covariance)
 
 
-def with_signal(answer: Findings, on_progress: Progress) -> Findings:
+def signals_of(plant: Explained, count: int | None, space: FaultSpaceEstimate | None, on_progress: Progress) -> Signals:
     """Return the signal of one choice of columns out of the space, over all samples of each experiment, where there is ground for one."""
-    model, rest, sizes, space, count = answer.model, answer.residual, answer.sizes, answer.fault_space, answer.n_v
-    if model is None or rest is None or sizes is None or space is None or not count or not space.meaningful or space.n_z < count:
-        return answer
+    if space is None or not count or not space.meaningful or space.n_z < count:
+        return no_signals(plant)
     if not space.decided:
-        return replace(answer, notes=(*answer.notes, "F, G and the fault signal are withheld: n_z is undecided, see the fault space"))
+        return no_signals(plant, "F, G and the fault signal are withheld: n_z is undecided, see the fault space")
     on_progress("choosing F and G", 0, 0)
-    one = most_moved(answer)
-    assert one.residual is not None and one.sizes is not None
+    one, model = most_moved(plant), plant.model.model
     part = one.residual.store.read(*loudest(one.sizes.energies, len(one.record), TRIED_ON))
-    F, G = choose_pair(part, model.model.A, model.model.C, space, count)
-    answer = for_each(answer, lambda one: _reconstructed(one, F, G, on_progress))
-    shown = any(one.signal is not None for one in answer.parts)
-    return replace(answer, pair=(F, G)) if shown else answer
+    pair = choose_pair(part, model.A, model.C, space, count)
+    each = tuple(_reconstructed(one, *pair, on_progress) for one in plant.experiments)
+    return Signals(pair if any(one.reconstruction is not None for one in each) else None, each)
 
 
-def _reconstructed(answer: Findings, F: Array, G: Array, on_progress: Progress) -> Findings:
+def no_signals(plant: Explained, *notes: str) -> Signals:
+    """Return no signal for any experiment."""
+    return Signals(None, (Signal(None, None, None, ()),) * len(plant.experiments), notes)
+
+
+def _reconstructed(plant: Explained, F: Array, G: Array, on_progress: Progress) -> Signal:
     """Return the signal of these columns over all samples, or a note why it is withheld."""
-    model, rest, count = answer.model, answer.residual, F.shape[1]
-    assert model is not None and rest is not None
+    model, count = plant.model.model, F.shape[1]
     try:
-        signal = reconstruct_fault(rest.store, model.model.A, F, model.model.C, G, within=answer.held, on_progress=on_progress)
+        found = reconstruct_fault(plant.residual.store, model.A, F, model.C, G, within=plant.held, on_progress=on_progress)
     except InvalidData as error:
-        return replace(answer, notes=(*answer.notes, f"no fault signal is given: {error}"))
-    notes = answer.notes
-    explained, by_noise = _shares(answer, signal, count)
-    answer = replace(answer, explained=explained, by_noise=by_noise)
+        return Signal(None, None, None, (f"no fault signal is given: {error}",))
+    explained, by_noise = _shares(plant, found, count)
     if explained <= by_noise:
         note = (
             f"F, G and the fault signal are withheld: they explain {100 * explained:.3g} % of the residual, and {count} "
             f"signal{'' if count == 1 else 's'} could explain up to {100 * by_noise:.3g} % of mere noise of its spectra"
         )
-        return replace(answer, notes=(*notes, note))
-    if signal.mismatch > JOINED:
-        notes += (f"the fault signal was found piece by piece, and neighbouring pieces differ by up to {signal.mismatch:.2g} of its size",)
-    return replace(answer, pair=(F, G), signal=signal, notes=notes)
+        return Signal(None, explained, by_noise, (note,))
+    apart = f"the fault signal was found piece by piece, and neighbouring pieces differ by up to {found.mismatch:.2g} of its size"
+    return Signal(found, explained, by_noise, (apart,) if found.mismatch > JOINED else ())
 
 
-def _shares(answer: Findings, signal: Reconstruction, count: int) -> tuple[float, float]:
+def _shares(plant: Explained, signal: Reconstruction, count: int) -> tuple[float, float]:
     """Return what the signal explains of the residual that was counted on, and what so many signals could of noise; outputs in units of the
     healthy residual where there is one, else each in units of its own size."""
-    rest, sizes, until = answer.residual, answer.sizes, answer.healthy
-    assert rest is not None and sizes is not None
-    healthy = until is not None and not np.all(sizes.early_peak <= ROUNDING * largest(answer.record))
+    rest, sizes, until = plant.residual, plant.sizes, plant.healthy
+    healthy = until is not None and not np.all(sizes.early_peak <= ROUNDING * largest(plant.record))
     units = sizes.early_norm if healthy else np.sqrt(signal.whole)
     units = np.where(units > 0.0, units, 1.0)
     start = max((until or 0) - MEANS_FROM, 0)
-    noise = rest.store.read(start, until or 0) if healthy else rest.store.read(*answer.held)
+    noise = rest.store.read(start, until or 0) if healthy else rest.store.read(*plant.held)
     try:
         return signal.explained(units), noise_share(noise, count, units, healthy=healthy)
     except InvalidData:
-        return signal.explained(units), count / answer.record.p
-
-
-def said_counted(reason: str) -> str:
-    """Return the reason of a fault space for an n_v that was estimated, where `fault_space` could only say that it was handed over."""
-    return reason.replace("n_v as given", "n_v as counted").replace("was given but", "was counted but")
+        return signal.explained(units), count / plant.record.p
 
 
 def choose_pair(r: Array, A: Array, C: Array, space: FaultSpaceEstimate, n_v: int) -> tuple[Array, Array]:
@@ -225,9 +213,7 @@ def about_own_means(experiments: Sequence[tuple[Array, Array]]) -> tuple[Any, An
     return about[0] if len(about) == 1 else (about, None)
 
 
-def beyond_rounding(answer: Findings) -> Array:
+def beyond_rounding(plant: Explained) -> Array:
     """Return the residual on the samples that are looked at, zero for outputs that the model explains to rounding: beside others that it
     does not explain, their rounding would be scaled up and counted as faults."""
-    rest, sizes = answer.residual, answer.sizes
-    assert rest is not None and sizes is not None
-    return np.asarray(rest.store.read(*looked_at(answer)) * (sizes.peak > ROUNDING * largest(answer.record)))
+    return np.asarray(plant.residual.store.read(*looked_at(plant)) * (plant.sizes.peak > ROUNDING * largest(plant.record)))

@@ -16,24 +16,24 @@ from ....base.errors import InvalidData
 from ...method.space.shift_isolation import gain_errors
 from ..doubt.asking import doubts
 from ..healthy.unlike_healthy import beyond_healthy_inputs, beyond_healthy_levels
-from .findings import Findings
+from .findings import Explained
 
 CURVED = "non-linearity"  # the kind of doubt
 
 
-def doubt_of_means(answer: Findings, until: int, before: Array, u: Array) -> str:
+def doubt_of_means(plant: Explained, until: int, before: Array, u: Array) -> str:
     """Say why the mean of the residual for inputs u (M, n_u) need not be that for `before` (K, n_u), which are of samples before `until`;
     it is empty where nothing speaks for it."""
-    driven = beyond_healthy_inputs(before, u, answer.record.inputs)
+    driven = beyond_healthy_inputs(before, u, plant.record.inputs)
     if not driven:
         return ""
-    if gain_errors(answer.model) is None:
+    if gain_errors(plant.model) is None:
         return driven
-    elsewhere = beyond_healthy_levels(before, u, answer.record.inputs)
+    elsewhere = beyond_healthy_levels(before, u, plant.record.inputs)
     if elsewhere:
         return elsewhere
     try:
-        raised = doubts(answer.record.beginning(until), answer.model, means_removed=answer.means_removed)
+        raised = doubts(plant.record.beginning(until), plant.model, means_removed=plant.means_removed)
     except (InvalidData, np.linalg.LinAlgError):  # so few samples that nothing can be asked
         return driven
     if CURVED in raised.unasked or any(row.kind == CURVED for row in raised):

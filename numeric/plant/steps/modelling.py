@@ -1,7 +1,6 @@
 """Make the model of `identify`: by reduction of an ARX model where there is noise, by PI-MOESP where there is none.
 
 modelled        the Modelled of a record
-Modelled        the model, what it was made of, and why in this way
 window_default  the block rows of PI-MOESP where none are given
 
 Which way. Without noise and fault both are exact; of PI-MOESP [V93] the audit asks it of every record that it ships, and it stays there.
@@ -15,44 +14,28 @@ either, samples held back do (`method/model/held_out_orders.py`), so that there 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ....base.arrays import Array
 from ....base.errors import InvalidData
 from ....base.progress import Progress
 from ....base.sheets import counted
 from ...data.records import Passes, Record
+from ...data.validation import experiment
 from ...method.model.arx_windows import longest_lag
-from ...method.model.asymptotic_likelihood import arx_reduction_experiments
-from ...method.model.feedback import FOLLOWS
+from ...method.model.asymptotic_likelihood import reduction
 from ...method.model.held_out_orders import order_left_open
-from ...method.model.moesp_model import MoespModel, OrderUndecided
+from ...method.model.moesp_model import OrderUndecided
 from ...method.model.past_inputs import pi_moesp_experiments
-from ...method.model.reduced_model import ReducedModel
 from ...method.model.reduction_starts import hankel_factors
 from ...method.ranks.exactness import SCREENED, driven_exactly, obeys_exactly
+from .findings import Modelled
 
 DEFAULT_WINDOW = 20
 SPARE = 3  # windows for each row of the Hankel matrices of PI-MOESP, at least
 STAGE = "identifying the model"
 MOST_TRIED = 1 << 18  # samples of a record of which orders are tried by samples held back: it stands in memory
-
-
-@dataclass(frozen=True, eq=False)
-class Modelled:
-    """This is the model, or None with the `refusal`, with singular values and the window that they belong to; `exact` says that the record
-    has no noise."""
-
-    model: MoespModel | ReducedModel | None
-    singular_values: Array
-    window: int
-    exact: bool
-    way: str
-    notes: tuple[str, ...] = ()
-    refusal: str = ""
 
 
 def modelled(record: Record, order: int | None, block_rows: int | None, on_progress: Progress) -> Modelled:
@@ -112,15 +95,15 @@ def _with_notes(found: Modelled, *notes: str) -> Modelled:
 
 
 def _by_reduction(record: Record, order: int | None, block_rows: int | None, exact: bool, on_progress: Progress) -> Modelled:
-    sources = [(Passes(one, STAGE, on_progress), None) for one in record.experiments]
-    found = arx_reduction_experiments(sources, order=order, lags=block_rows)
+    sources = [experiment(Passes(one, STAGE, on_progress), None) for one in record.experiments]
+    # Without its note of a closed loop, which is among the doubts, with what it does.
+    found, _ = reduction(sources, order, block_rows, True)
     # Powers of two near the deviations: they round nothing, and are the same in whatever pieces the record came.
     units = np.exp2(-np.round(np.log2(record.channels.deviation)))
     arx = found.arx.scaled(units[record.n_u :], units[: record.n_u])
     values = hankel_factors(arx, max(arx.order, 1), weighted=True)[2]
     way = f"an ARX model of {counted(arx.order, 'lag')}, reduced under its own weight"
-    # A closed loop is among the doubts, with what it does.
-    notes = tuple(note for note in found.notes if not note.startswith(FOLLOWS))
+    notes = found.notes
     if found.order == 0:
         notes += ("the outputs follow the inputs at once or not at all: the model has no state",)
     lags = block_rows if block_rows is not None else max(longest_lag([len(one) for one in record.experiments], record.p, record.n_u), 1)

@@ -1,11 +1,9 @@
-"""Several experiments in one identification: each has an initial state, a residual and onsets of its own; model and faults are of all.
+"""Set the model beside the record: what it leaves, of all samples and of each experiment.
 
-long_enough              the record without the experiments that are too short for a part in it
-residual_by_experiment   the residual of all samples, each experiment from its own state, and these states
-with_parts               the Findings with a part for each experiment: its record and its residual
-for_each                 a step taken for each part, or for the whole where it is one experiment
-completed                the Findings whose parts have what is of all
-looked_at                the samples that what cannot go across experiments is asked of; most_moved: the part that they are of
+long_enough    the record without the experiments that are too short for a part in it
+explained      the residual of all samples, each experiment from its own state, and the experiments as parts
+looked_at      the samples that what cannot go across experiments is asked of; most_moved: the part that they are of
+most_held      how many samples faults are counted on
 
 A part has the healthy samples before its own where some are stated, and model, number of faults and fault space are those of the whole.
 One experiment has no parts: it is its own.
@@ -13,8 +11,8 @@ One experiment has no parts: it is its own.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -27,8 +25,12 @@ from ...method.model.arx_windows import longest_lag
 from ...method.model.moesp_model import MoespModel
 from ...method.model.reduced_model import ReducedModel
 from ...method.model.residuals import ResidualSignal, growing_modes, residual
-from ...method.signal.residual_sizes import residual_sizes
-from .findings import Findings
+from ...method.signal.residual_sizes import ResidualSizes, loudest, residual_sizes
+from .findings import Answer, Explained, Measured
+
+Looked = TypeVar("Looked", Explained, Answer)
+
+HELD = 1 << 21  # numbers of residual and inputs that faults are counted on
 
 
 def long_enough(record: Record, block_rows: int) -> tuple[Record, tuple[str, ...]]:
@@ -52,7 +54,70 @@ def long_enough(record: Record, block_rows: int) -> tuple[Record, tuple[str, ...
     return replace(side_by_side(kept), offset=record.offset, clock=record.clock), (note,)
 
 
-def residual_by_experiment(
+def explained(
+    measured: Measured, found: MoespModel | ReducedModel, exact: bool, block_rows: int, on_progress: Progress
+) -> Explained:
+    """Return what the model leaves of the record, with a part for each experiment where there are several; a healthy record is none."""
+    record, healthy = measured.record, measured.healthy
+    with np.errstate(over="ignore", invalid="ignore"):  # outliers beyond all numbers are told by what they leave
+        rest, each = _residuals(record, found, len(measured.part), on_progress)
+    sizes = residual_sizes(rest.store, len(measured.part))
+    held, parts = _held(record, sizes, healthy), tuple[Explained, ...]()
+    chosen = range(1 if measured.healthy_record else 0, len(record.experiments))
+    if len(chosen) > 1:
+        parts = tuple(_part(measured, number, rest, each[number], (found, exact, block_rows)) for number in chosen)
+        held = _most_varying(record, rest, sizes, held) if healthy else held
+    return Explained(
+        **vars(measured),
+        model=found,
+        exact=exact,
+        block_rows=block_rows,
+        residual=rest,
+        sizes=sizes,
+        held=held,
+        initial_states=tuple(one.x0 for one in each),
+        parts=parts,
+    )
+
+
+def _part(
+    measured: Measured, number: int, rest: ResidualSignal, own: ResidualSignal, model: tuple[MoespModel | ReducedModel, bool, int]
+) -> Explained:
+    """Return this experiment with its `own` residual, behind the healthy samples where these came before it."""
+    record, healthy = measured.record, measured.healthy
+    experiment, store = record.experiments[number], own.store
+    apart = healthy is not None and record.bounds[number][0] >= healthy
+    if apart and healthy is not None:
+        experiment = replace(joined(record.part(0, healthy), experiment), offset=record.offset)
+        store = _one_after_the_other(rest.store, healthy, store)
+    return Explained(
+        replace(experiment, clock=record.clock),
+        measured.operating_point,
+        healthy,
+        apart,
+        measured.noise_level,
+        *model,
+        residual=replace(rest if apart else own, store=store, covariance=rest.covariance),
+        sizes=residual_sizes(store, len(record.experiments[number]) if healthy is None else healthy),
+        held=(0, len(experiment)),
+        initial_states=(own.x0,),
+        parts=(),
+    )
+
+
+def most_held(record: Record) -> int:
+    """Return how many samples faults are counted on, at most."""
+    return HELD // (record.p + record.n_u)
+
+
+def _held(record: Record, sizes: ResidualSizes, healthy: int | None) -> tuple[int, int]:
+    """Return the samples (first, last) to count on: where the residual is largest, or from the end of the healthy ones on."""
+    most, known = most_held(record), healthy or 0
+    first, last = loudest(sizes.energies, len(record), most)
+    return (known, min(known + most, len(record))) if first < known else (first, last)
+
+
+def _residuals(
     record: Record, found: MoespModel | ReducedModel, modelled: int, on_progress: Progress
 ) -> tuple[ResidualSignal, tuple[ResidualSignal, ...]]:
     """Return the residual of the whole record, whose first `modelled` samples the model is from, and that of each experiment.
@@ -102,41 +167,6 @@ def _with_covariance(rest: ResidualSignal, found: MoespModel | ReducedModel, mod
     return replace(rest, covariance=squares / max(modelled - fitted / model.p, 1.0))
 
 
-def with_parts(answer: Findings, each: tuple[ResidualSignal, ...]) -> Findings:
-    """Return the Findings with a part for each experiment, of which `each` is the residual; a healthy record is none of them."""
-    record, rest, healthy = answer.record, answer.residual, answer.healthy
-    assert rest is not None
-    states = tuple(one.x0 for one in each)
-    chosen = range(1 if answer.healthy_record else 0, len(record.experiments))
-    answer = replace(answer, initial_states=states)
-    if len(chosen) < 2:
-        return answer
-    parts = []
-    for number in chosen:
-        experiment, start = record.experiments[number], record.bounds[number][0]
-        store, early = each[number].store, len(experiment)
-        apart = healthy is not None and start >= healthy
-        if healthy is not None:
-            early = healthy
-        if apart and healthy is not None:
-            experiment = replace(joined(record.part(0, healthy), experiment), offset=record.offset)
-            store = _one_after_the_other(rest.store, healthy, store)
-        signal = replace(rest if apart else each[number], store=store, covariance=rest.covariance)
-        parts.append(
-            replace(
-                answer,
-                record=replace(experiment, clock=record.clock),
-                residual=signal,
-                sizes=residual_sizes(store, early),
-                held=(0, len(experiment)),
-                healthy_record=apart,
-                initial_states=(each[number].x0,),
-                notes=(),
-            )
-        )
-    return replace(answer, parts=tuple(parts))
-
-
 def _one_after_the_other(before: SampleStore, until: int, after: SampleStore) -> SampleStore:
     store = SampleStore(before.width)
     for rows in before.pieces(0, until):
@@ -146,42 +176,32 @@ def _one_after_the_other(before: SampleStore, until: int, after: SampleStore) ->
     return store
 
 
-def for_each(answer: Findings, step: Callable[[Findings], Findings]) -> Findings:
-    """Return the Findings after a step that each experiment takes by itself."""
-    if not answer.parts:
-        return step(answer)
-    return replace(answer, parts=tuple(step(part) for part in answer.parts))
-
-
-def looked_at(answer: Findings) -> tuple[int, int]:
+def looked_at(plant: Explained | Answer) -> tuple[int, int]:
     """Return the samples (first, last), of those held, of the experiment in which the residual varies most: windows across two experiments
     are none of the system. They are those held where these are of one experiment."""
-    first, last = answer.held
-    inside = [(max(first, start), min(last, stop)) for start, stop in answer.record.bounds]
+    if plant.residual is None or plant.sizes is None:
+        return plant.held
+    return _most_varying(plant.record, plant.residual, plant.sizes, plant.held)
+
+
+def _most_varying(record: Record, rest: ResidualSignal, sizes: ResidualSizes, held: tuple[int, int]) -> tuple[int, int]:
+    first, last = held
+    inside = [(max(first, start), min(last, stop)) for start, stop in record.bounds]
     inside = [(start, stop) for start, stop in inside if start < stop]
-    if len(inside) < 2 or answer.residual is None or answer.sizes is None:
-        return answer.held
-    unit = np.where(answer.sizes.norm > 0, answer.sizes.norm, 1.0)
+    if len(inside) < 2:
+        return held
+    unit = np.where(sizes.norm > 0, sizes.norm, 1.0)
     energies = []
     for start, stop in inside:
-        r = answer.residual.store.read(start, stop) / unit
+        r = rest.store.read(start, stop) / unit
         energies.append(float(np.sum((r - r.mean(axis=0)) ** 2)))
     return inside[int(np.argmax(energies))]
 
 
-def most_moved(answer: Findings) -> Findings:
+def most_moved(plant: Looked) -> Looked:
     """Return the part of the experiment that is looked at, or the whole where it is one."""
-    if not answer.parts:
-        return answer
-    first = looked_at(answer)[0]
-    bounds = answer.record.bounds[1 if answer.healthy_record else 0 :]
-    return answer.parts[next(number for number, (start, stop) in enumerate(bounds) if start <= first < stop)]
-
-
-def completed(answer: Findings) -> Findings:
-    """Return the Findings whose parts have the number of faults and the fault space of the whole beside what is their own."""
-    own = ("record", "residual", "sizes", "held", "healthy_record", "initial_states", "onset", "changes", "parts")
-    parts = tuple(
-        replace(answer, mean=None, notes=answer.notes + part.notes, **{name: getattr(part, name) for name in own}) for part in answer.parts
-    )
-    return replace(answer, parts=parts)
+    if not plant.parts:
+        return plant
+    first = looked_at(plant)[0]
+    bounds = plant.record.bounds[1 if plant.healthy_record else 0 :]
+    return plant.parts[next(number for number, (start, stop) in enumerate(bounds) if start <= first < stop)]
