@@ -61,8 +61,6 @@ class Matrix:
         entries = self.__dict__
         entries["field"], entries["nrows"], entries["ncols"], entries["flint"] = field, nrows, ncols, flint
 
-    # -- building -------------------------------------------------------------------------------------------------
-
     @staticmethod
     def of(entries: object, field: Field = QQ, *, shape: tuple[int, int] | None = None, where: str = "matrix") -> Matrix:
         """A matrix from nested sequences, a numpy array of integers, a sympy Matrix or DomainMatrix; `shape` is needed for empty ones.
@@ -116,8 +114,6 @@ class Matrix:
         for i in range(k):
             unit[i, i] = 1
         return Matrix(field, size, size, unit)
-
-    # -- reading --------------------------------------------------------------------------------------------------
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -193,8 +189,6 @@ class Matrix:
         return "[" + ", ".join(rows) + "]" if rows else f"[{self.nrows} x {self.ncols}]"
 
     __repr__ = __str__
-
-    # -- arithmetic -----------------------------------------------------------------------------------------------
 
     def __matmul__(self, other: Matrix) -> Matrix:
         other = self._mixes_with(other)
@@ -283,9 +277,7 @@ def stacked(*parts: Matrix) -> Matrix:
 
 
 def rank(matrix: Matrix) -> int:
-    """Return the rank of an nrows x ncols matrix over its field.
-
-    A large matrix is looked at modulo a prime first: a minor that is not zero there is not zero, so that full rank there is full rank.
+    """Return the rank of an nrows x ncols matrix over its field; that of an empty one is 0.
 
     Parameters
     ----------
@@ -295,7 +287,6 @@ def rank(matrix: Matrix) -> int:
     Returns
     -------
     int
-        0 for an empty matrix.
 
     Raises
     ------
@@ -502,11 +493,7 @@ def solve_left(matrix: Matrix, right_side: Matrix) -> Matrix | None:
     coefficients = form.matrix.columns(range(height, height + right_side.nrows)).transposed()
     if len(profile) == height:
         return coefficients
-    spread = Matrix.zero(matrix.field, len(profile), height).elements()
-    one = matrix.field.element(1)
-    for i, row in enumerate(profile):
-        spread[i][row] = one
-    return coefficients @ Matrix.from_elements(matrix.field, len(profile), height, spread)
+    return coefficients @ Matrix.identity(matrix.field, height).rows(profile)
 
 
 def _size(matrix: Matrix) -> str:

@@ -1,7 +1,6 @@
 """Records longer than memory: the same answers as from arrays, memory that does not grow with them, and progress that is told.
 
 long_record     the packaged system's record as y, u and a Record
-small           lets little be held in memory
 peak            the most memory (MiB) of a process that identifies a file, with little held
 """
 
@@ -11,7 +10,6 @@ import importlib
 import importlib.util
 import subprocess
 import sys
-import tracemalloc
 from pathlib import Path
 from typing import Any
 
@@ -32,10 +30,10 @@ from faultspace.numeric.method.signal.reconstruction import reconstruct_fault
 from faultspace.numeric.method.signal.residual_sizes import PART, loudest, residual_sizes
 from faultspace.numeric.method.signal.smoother import smoothed
 from faultspace.numeric.plant import pipeline as identifying
-from faultspace.numeric.plant.monitor import monitoring
 from faultspace.numeric.plant.steps import explaining
-from tests.end_to_end.commands import ROOT, call, environment
+from tests.end_to_end.commands import ROOT, environment
 from tests.end_to_end.identify_runs import CHANNELS
+from tests.thorough import THOROUGH
 
 Array = NDArray[np.float64]
 
@@ -178,10 +176,10 @@ SCRIPT = """
 import contextlib, sys
 from pathlib import Path
 from faultspace.cli import command_line
-from faultspace.numeric.data import records
-from faultspace.numeric.method.signal import reconstruction
-from faultspace.numeric.plant.monitor import monitoring
 from faultspace.numeric.plant.steps import explaining
+from faultspace.numeric.data import records
+from faultspace.numeric.plant.monitor import monitoring
+from faultspace.numeric.method.signal import reconstruction
 explaining.HELD, records.IN_MEMORY, reconstruction.LONGEST, monitoring.NUMBERS = 1 << 15, 1 << 20, 1 << 13, 1 << 20
 with contextlib.suppress(ImportError):
     from matplotlib.figure import Figure
@@ -200,31 +198,19 @@ def peak(path: Path, channels: tuple[str, ...]) -> float:
     return int(most) / 1024
 
 
-def test_memory_does_not_grow_with_the_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """What Python and numpy ask for is counted, which does not differ from run to run, so that shorter records will do."""
-    for module, name, most in ((explaining, "HELD", 1 << 14), (records, "IN_MEMORY", 1 << 18), (reconstruction, "LONGEST", 1 << 12)):
-        monkeypatch.setattr(module, name, most)
-    monkeypatch.setattr(monitoring, "NUMBERS", 1 << 18)
-    peaks, sizes = [], (20_000, 20_000, 60_000)  # the first of all loads modules
-    for number, samples in enumerate(sizes):
-        path, record = tmp_path / f"d{number}.npy", made.faulty_record(samples)
-        np.save(path, np.hstack([record.u, record.y]))
-        del record
-        tracemalloc.start()
-        run = call("identify", str(path), "--inputs", "data[:,:2]", "--outputs", "data[:,2:]", "--order", "3", "--out", f"{path}.answer")
-        peaks.append(tracemalloc.get_traced_memory()[1])
-        tracemalloc.stop()
-        assert run.code == 0, run.err
-    assert peaks[2] - peaks[1] < 8 * 5 * (sizes[2] - sizes[1]), peaks  # the numbers of the record alone, without residual and signal
-
-
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no /proc to read the peak of memory from")
-@pytest.mark.slow
-@pytest.mark.parametrize("format", ["csv", "parquet", "npy"])
-def test_the_memory_of_a_process_does_not_grow_with_the_record(format: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    "format",
+    [
+        pytest.param("csv", marks=pytest.mark.slow),
+        pytest.param("parquet", marks=pytest.mark.slow),
+        pytest.param("npy", marks=pytest.mark.programs),
+    ],
+)
+def test_memory_does_not_grow_with_the_record(format: str, tmp_path: Path) -> None:
     if format == "parquet" and importlib.util.find_spec("pyarrow") is None:
         pytest.skip("pyarrow is not installed")
-    peaks, sizes = [], (40_000, 800_000)
+    peaks, sizes = [], (40_000, 800_000 if THOROUGH else 400_000)
     for samples in sizes:
         path = tmp_path / f"d{samples}.{format}"
         record = made.faulty_record(samples)
