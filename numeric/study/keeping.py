@@ -28,7 +28,7 @@ import scipy
 from filelock import Timeout
 
 from ...base.errors import InvalidInput, in_file, quote_path, shorten
-from ...base.kept_lines import append, lock_of
+from ...base.kept_lines import append, cut, lock_of
 from ...base.regular_files import open_own
 from ...base.sheets import counted
 from ...base.writing import reason, write_text
@@ -140,8 +140,9 @@ def _read(path: Path, settings: Settings) -> dict[str, dict[int, Case]]:
                 except (ValueError, KeyError, TypeError, AttributeError):  # a loss of power may leave such lines at the end
                     break
                 whole += len(line)
-        if whole < path.stat().st_size:
-            os.truncate(path, whole)
+            size = os.fstat(stream.fileno()).st_size
+        if whole < size:
+            cut(path, whole)
     except OSError as error:
         raise InvalidInput(f"{name}: cannot be read and written ({reason(error)}): name a new folder") from None
     return cases
