@@ -2,6 +2,7 @@
 
 KeptLines    the lines of a file, which this run has for itself; `note` appends one at once
 append       a content to a file, whole or not at all
+cut          leave the first bytes of a file alone
 lock_of      the lock for which a file of ours stands
 
 A line that a stop cut short, which can be the last alone, is taken out. What the operating system has been handed survives the death of our
@@ -60,6 +61,15 @@ def append(path: Path, content: bytes) -> None:
         raise InvalidInput(f"{quote_path(str(path))}: cannot be written ({reason(error)}), expected another path") from None
 
 
+def cut(path: Path, size: int) -> None:
+    """Leave the first `size` bytes of the file. Raises OSError, also for a link that has come to stand there since it was read."""
+    descriptor = os.open(path, os.O_WRONLY | NO_LINK | getattr(os, "O_NONBLOCK", 0))
+    try:
+        os.ftruncate(descriptor, size)
+    finally:
+        os.close(descriptor)
+
+
 def lock_of(path: Path) -> FileLock:
     """Return the lock for which the file at `path` stands, which is made, to be taken at once or not at all. Raises OSError for what is
     there and is no empty file of its own: to take a lock empties its file."""
@@ -108,7 +118,7 @@ def _read(path: Path, format: str, good: Callable[[Line], bool], option: str, na
             if not (rest.startswith(begins) or begins.startswith(rest)):
                 raise ValueError
         if whole != content:
-            os.truncate(path, len(whole))
+            cut(path, len(whole))
     except InvalidInput as error:
         raise _refused(option, name, str(error)) from None
     except OSError as error:

@@ -22,7 +22,7 @@ from ..base.errors import InvalidInput, quote_path
 from ..base.others_text import printable
 from ..base.processes import Limits
 from ..base.progress import working
-from ..base.writing import reason, write_text
+from ..base.writing import write_text
 from ..numeric.audit.checks.catalogue import chosen
 from ..numeric.audit.expectations import as_expected, expected_in
 from ..numeric.audit.names import named
@@ -35,6 +35,7 @@ from ..numeric.audit.subjects.opening import opened
 from .audit_pages import print_report
 from .consoles import answers, print_json, print_table
 from .failures import ANSWERED, NOT_AS_EXPECTED
+from .reading_files import read_json
 
 
 @dataclass(frozen=True)
@@ -85,12 +86,7 @@ def saved(file: Path, asked: Asked, expected: Path | None) -> Audit:
             "--from reports what was asked before, and asks nothing: leave the adapter, --exec, --peer, --seed and --quick out, or leave "
             "--from out and ask again"
         )
-    try:
-        written = json.loads(file.read_text("utf-8"))
-    except (OSError, ValueError) as error:
-        wanted = "expected what `faultspace audit --json` prints"
-        raise InvalidInput(f"{quote_path(str(file))}: cannot be read as JSON ({reason(error)}), {wanted}") from None
-    found = Audit.from_json(written)
+    found = Audit.from_json(read_json(str(file)))
     for name in asked.only:
         if not any(named(one, name) for one in found):
             raise InvalidInput(f"check {name}: {quote_path(str(file))} has no result of that name, expected one that -vv prints of it")

@@ -30,6 +30,7 @@ from ..exact.limits.experiments import read_experiment as experiment_of
 from ..exact.system.systems import System, from_float_exactly
 from ..exact.system.systems import read_system as system_of
 
+MOST_PARTS = 1 << 22  # lists and objects of a document, each of which takes up to 200 bytes of memory, however few it has in the file
 _HINT = "see from_float_exactly"
 _ADVICE = "--floats-exactly takes them as the dyadic rationals that they are"
 _TABLES = (".csv", ".tsv", ".txt", ".dat")
@@ -76,6 +77,8 @@ def read_json(name: str, *, number: Callable[[str], object] = float) -> Any:
     """Read the document in a file; `number` reads numbers with a point or an exponent. Raises InvalidInput."""
     with in_file(name):
         text = read_text(name, "JSON")
+        if text.count("[") + text.count("{") > MOST_PARTS:
+            raise InvalidInput(f"got more than {MOST_PARTS} lists and objects, expected at most that")
         try:
             return json.loads(text, object_pairs_hook=_object, parse_constant=_refused, parse_float=number, parse_int=_integer)
         except json.JSONDecodeError as error:

@@ -128,6 +128,11 @@ def offered(implementation: object) -> dict[str, Function]:
     return found
 
 
+def known(offered: object) -> bool:
+    """Return whether this is a list of some of FUNCTIONS: of a process that says that it offers nothing, no check would fail."""
+    return isinstance(offered, list) and bool(offered) and all(one in FUNCTIONS for one in offered)
+
+
 def not_promised(implementation: object) -> dict[str, str]:
     """Return pattern -> reason for the checks that the implementation says it never promised to pass: its NOT_PROMISED.
 

@@ -14,7 +14,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ...base.errors import InvalidData, quote_path, shorten
+from ...base.errors import InvalidData, InvalidInput, quote_path, shorten
+from ...base.regular_files import open_regular
 from ...base.writing import reason
 from .names import named
 from .records import CheckResult, Status
@@ -41,7 +42,10 @@ def expected_in(path: Path) -> tuple[ExpectedFailure, ...]:
     name, no reason, or a name that stands there already."""
     shown = quote_path(str(path))
     try:
-        lines = path.read_text("utf-8").splitlines()
+        with open_regular(path, "a file of lines NAME: REASON") as stream:
+            lines = stream.read().decode("utf-8").splitlines()
+    except InvalidInput as error:
+        raise InvalidData(f"{shown}: {error}") from None
     except (OSError, UnicodeDecodeError) as error:
         raise InvalidData(f"{shown}: cannot be read ({reason(error)}), expected a file of lines NAME: REASON") from None
     found: dict[str, ExpectedFailure] = {}

@@ -28,13 +28,14 @@ import scipy
 from filelock import Timeout
 
 from ...base.errors import InvalidInput, in_file, quote_path, shorten
-from ...base.kept_lines import append, lock_of
+from ...base.kept_lines import append, cut, lock_of
 from ...base.regular_files import open_own
 from ...base.sheets import counted
 from ...base.writing import reason, write_text
 from .study_cases import Case, Errors, Estimate, Failed
 
 UNFINISHED, TEMPORARY = "unfinished-cases.jsonl", ".unfinished-monte-carlo"
+LONGEST = 1 << 22  # bytes of a line
 LOCK = ".faultspace-lock"
 FORMAT = "faultspace-unfinished-study/1"
 
@@ -126,10 +127,10 @@ def _read(path: Path, settings: Settings) -> dict[str, dict[int, Case]]:
         with in_file(str(path)):
             opened = open_own(path, "a file of cases")
         with opened as stream:
-            _same(stream.readline(), settings, name)
+            _same(stream.readline(LONGEST), settings, name)
             cases: dict[str, dict[int, Case]] = {}
             whole = stream.tell()
-            for line in stream:
+            for line in iter(lambda: stream.readline(LONGEST), b""):
                 try:
                     one = json.loads(line) if line.endswith(b"\n") else None
                     if not isinstance(one, dict):
@@ -137,11 +138,12 @@ def _read(path: Path, settings: Settings) -> dict[str, dict[int, Case]]:
                     if "case" in one:
                         case = _case(one["case"])
                         cases.setdefault(str(one["plan"]), {})[case.index] = case
-                except (ValueError, KeyError, TypeError, AttributeError):  # a loss of power may leave such lines at the end
+                except (ValueError, KeyError, TypeError, AttributeError, RecursionError):  # a loss of power may leave such lines at the end
                     break
                 whole += len(line)
-        if whole < path.stat().st_size:
-            os.truncate(path, whole)
+            size = os.fstat(stream.fileno()).st_size
+        if whole < size:
+            cut(path, whole)
     except OSError as error:
         raise InvalidInput(f"{name}: cannot be read and written ({reason(error)}): name a new folder") from None
     return cases
@@ -151,7 +153,7 @@ def _same(first: bytes, settings: Settings, name: str) -> None:
     """Raise InvalidInput unless the first line is that of a file with these settings."""
     try:
         found = json.loads(first)
-    except ValueError:
+    except (ValueError, RecursionError):
         found = None
     if not isinstance(found, dict) or found.pop("format", None) != FORMAT:
         raise InvalidInput(f"{name}: is not ours, expected a first line with the format {FORMAT}; move the file away, or name a new folder")

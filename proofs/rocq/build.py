@@ -212,7 +212,9 @@ def _made_private(folder: Path) -> None:
     """Makes the folder of our cache and the one above it, so that nobody else can write into them. Raises OSError."""
     for one in (folder.parent, folder):
         one.mkdir(parents=True, exist_ok=True, mode=0o700)
-        status = one.stat()
+        status = one.lstat()
+        if not stat.S_ISDIR(status.st_mode):
+            raise NotADirectoryError(errno.ENOTDIR, f"{one} is a link")
         if hasattr(os, "getuid") and status.st_uid != os.getuid():
             raise PermissionError(errno.EPERM, f"{one} belongs to another user")
         if status.st_mode & 0o022:

@@ -134,7 +134,8 @@ def kept() -> Locks:
             str(name): Lock(str(one["file"]), str(one["statement"]), tuple(one["words"]), str(one["sha256"]))
             for name, one in data["theorems"].items()
         }
-        return Locks(theorems, *(dict(data[key]) for key in ("words", "vocabularies", "openings", "readings")), tuple(data["far"]))
+        words, vocabularies, openings, readings = (dict(data[key]) for key in ("words", "vocabularies", "openings", "readings"))
+        return Locks(theorems, words, vocabularies, openings, readings, tuple(data["far"]))
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise NotProved(f"the locks of the statements, theory/{LOCKS}, cannot be read: {type(error).__name__}: {error}") from None
 

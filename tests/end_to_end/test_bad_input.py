@@ -216,6 +216,15 @@ def test_a_file_that_is_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     refused(call("inspect", str(path)), "large.json", "bytes")
 
 
+def test_a_file_of_many_small_parts_is_not_made_into_objects(tmp_path: Path) -> None:
+    path = tmp_path / "parts.json"
+    for part in ("[],", "{},"):
+        path.write_text(f"[{part * (reading_files.MOST_PARTS // 2)}0]")
+        refused(call("inspect", str(path)), "parts.json", "got [")
+        path.write_text(f"[{part * reading_files.MOST_PARTS}0]")
+        refused(call("inspect", str(path)), "parts.json", f"more than {reading_files.MOST_PARTS} lists and objects")
+
+
 def test_a_source_without_end_is_not_read_to_its_end() -> None:
     if not Path("/dev/zero").exists():
         pytest.skip("no /dev/zero here")

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import os
 import stat
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import IO
 
 import pytest
 
+from faultspace.base import kept_lines
 from faultspace.base.errors import InvalidInput
 from faultspace.base.kept_lines import append, keeping_lines
 from faultspace.base.writing import new_file, whole_file, write_text
 from faultspace.numeric.plant.report import folders
+from faultspace.numeric.study import keeping as study_keeping
 from faultspace.numeric.study.keeping import LOCK, UNFINISHED, Settings, keeping
 from tests.end_to_end.commands import ROOT
 
@@ -66,6 +70,38 @@ def test_what_is_planted_leads_nowhere(writer: str, name: str, kind: str, tmp_pa
     assert victim.read_text() == PRECIOUS and not (tmp_path / "not there").exists()
     assert stat.S_ISCHR(os.stat(os.devnull).st_mode)
     assert not [one for one in folder.iterdir() if one.name.startswith(".unfinished-") and one.name != name]
+
+
+def test_a_link_in_the_place_of_our_own_folder_brings_nothing_of_others(tmp_path: Path) -> None:
+    (tmp_path / "others").mkdir()
+    (tmp_path / "others" / "model.json").write_text(PRECIOUS)
+    (tmp_path / "made").symlink_to(tmp_path / "others")
+    with pytest.raises(OSError):
+        folders.replace(tmp_path / "made", tmp_path, ["model.json"])
+    assert (tmp_path / "others" / "model.json").read_text() == PRECIOUS and not (tmp_path / "model.json").exists()
+
+
+def test_a_link_that_comes_after_reading_is_not_cut(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    victim = tmp_path / "victim"
+    victim.write_text(PRECIOUS)
+    for module, name, writer in ((kept_lines, "kept", kept), (study_keeping, UNFINISHED, study)):
+        folder = tmp_path / writer.__name__
+        folder.mkdir()
+        writer(folder)
+        with open(folder / name, "ab") as stream:
+            stream.write(b'{"fo')
+
+        @contextmanager
+        def swapping(path: Path, expected: str) -> Iterator[IO[bytes]]:
+            with open(path, "rb") as stream:
+                yield stream
+                path.unlink()
+                path.symlink_to(victim)
+
+        monkeypatch.setattr(module, "open_own", swapping)
+        with pytest.raises(InvalidInput):
+            writer(folder)
+        assert victim.read_text() == PRECIOUS, name
 
 
 @pytest.mark.parametrize(("mask", "mode"), [(0o077, 0o600), (0o027, 0o640), (0o022, 0o644)])

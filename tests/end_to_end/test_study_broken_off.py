@@ -11,13 +11,14 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 
 import numpy as np
 import psutil
 import pytest
 
+from faultspace.base.errors import InvalidInput
 from faultspace.cli import study_report
 from faultspace.numeric.study.groups import Plan
 from faultspace.numeric.study.keeping import LOCK, TEMPORARY, UNFINISHED, Settings, keeping
@@ -241,7 +242,9 @@ def keep_some(folder: Path, seed: int = 5) -> Path:
 
 
 @pytest.mark.usefixtures("without_figures")
-@pytest.mark.parametrize("end", [b'{"plan": "published", "ca', b"\0\0\0\0\n\0", b'{"plan": "published", "case": {"index": 5}}\n', b"[]\n"])
+@pytest.mark.parametrize(
+    "end", [b'{"plan": "published", "ca', b"\0\0\0\0\n\0", b'{"plan": "published", "case": {"index": 5}}\n', b"[]\n", b"[" * 10**5 + b"\n"]
+)
 def test_a_line_that_is_not_whole_does_not_count(end: bytes, tmp_path: Path) -> None:
     assert study(tmp_path / "whole").code == 0
     (tmp_path / "out").mkdir()
@@ -252,6 +255,18 @@ def test_a_line_that_is_not_whole_does_not_count(end: bytes, tmp_path: Path) -> 
         assert kept.count == 4 and file.read_bytes() == whole
     assert study(tmp_path / "out", "--resume").code == 0
     assert contents(tmp_path / "out") == contents(tmp_path / "whole")
+
+
+@pytest.mark.parametrize("first", [b"", b'{"plan": "published", "case": {"a": '])
+def test_a_line_without_an_end_is_not_read_to_its_end(first: bytes, tmp_path: Path) -> None:
+    whole = keep_some(tmp_path).read_bytes() if first else b""
+    (tmp_path / UNFINISHED).write_bytes(whole + first)
+    os.truncate(tmp_path / UNFINISHED, 10**12)  # a terabyte of zeros
+    with (
+        nullcontext() if first else pytest.raises(InvalidInput, match="is not ours"),
+        keeping(tmp_path, Settings(5, 30), resume=True) as kept,
+    ):
+        assert kept.count == 4 and (tmp_path / UNFINISHED).read_bytes() == whole
 
 
 def test_cases_of_other_settings_and_files_of_others_are_left_as_they_are(tmp_path: Path) -> None:

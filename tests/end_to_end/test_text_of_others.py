@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import csv
-import os
 import re
+from collections.abc import Callable
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -113,7 +113,11 @@ def test_refusals_and_tracebacks_are_text(capsys: pytest.CaptureFixture[str], tm
         say(f"got {name}")
         call("inspect", f"{tmp_path}/{name}")
     monkeypatch.setenv("FAULTSPACE_TRACEBACK", "1")
-    monkeypatch.setattr("faultspace.cli.inspecting.run", lambda *_, **__: 1 / len(os.fspath("") or exec("raise ValueError('\\x1b[31m')")))
+
+    def failing(*_: object, **__: object) -> None:
+        raise ValueError("\x1b[31m")
+
+    monkeypatch.setattr("faultspace.cli.inspecting.run", failing)
     assert call("inspect", "x").code == 70
     said = capsys.readouterr()
     assert CONTROL.search(said.err + said.out) is None and "\\x1b[31m" in said.err
@@ -137,10 +141,15 @@ def test_a_picture_that_fails_is_a_remark(tmp_path: Path) -> None:
     assert "one.png" in remark and "no such glyph" in remark and not (tmp_path / "one.png").exists()
 
 
+def giving(value: Any) -> Callable[[], Any]:
+    """Return the function that returns the value."""
+    return lambda: value
+
+
 def test_no_name_is_mathematics_in_a_picture(rendered: None, tmp_path: Path) -> None:
     figure = pytest.importorskip("matplotlib.figure")
     for name in (*OTHERS, "$$", "$x$ $", "\\$a\\$"):
         made = figure.Figure()
         made.add_subplot().set_title(as_label(name))
-        assert pictures.drawn(tmp_path / f"{abs(hash(name))}.png", lambda made=made: made) == [], name
+        assert pictures.drawn(tmp_path / f"{abs(hash(name))}.png", giving(made)) == [], name
         assert made.axes[0].title._preprocess_math(as_label(name))[1] is False, name

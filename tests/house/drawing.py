@@ -86,7 +86,7 @@ def filled(page: str, rows: Sequence[str], begin: str = BEGIN, end: str = END) -
     return f"{before}{begin}\n" + "\n".join(["", *rows, ""]) + f"\n{end}{after}"
 
 
-PAGES: dict[str, Callable[[Graph], list[str]]] = {"CONTRIBUTING.md": figure, "docs/house.md": table}
+PAGES: dict[str, Callable[[Graph], list[str]]] = {"docs/extending.md": figure, "docs/house.md": table}
 
 
 def main() -> None:

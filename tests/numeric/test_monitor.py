@@ -17,9 +17,11 @@ import scipy.stats
 
 import faultspace as fs
 from faultspace.base.errors import InvalidData
+from faultspace.base.progress import silent
 from faultspace.numeric import Alarm, Monitor, StateSpaceModel, arx_reduction
+from faultspace.numeric.plant.monitor import thresholds
 from faultspace.numeric.plant.monitor.innovation_form import Predictor, innovation_form
-from faultspace.numeric.plant.monitor.statistics import TESTS, Bank, Settings, roots
+from faultspace.numeric.plant.monitor.statistics import TESTS, Bank, Settings, checked, roots
 from faultspace.numeric.plant.monitor.thresholds import calibrate, ideal_thresholds, simulated
 
 PLANT = StateSpaceModel([[0.8, 0.3], [-0.3, 0.7]], [[1.0], [0.5]], [[1.0, 0.0], [0.3, 1.0]], [[0.0], [0.2]])
@@ -214,6 +216,25 @@ def test_thresholds_have_the_stated_rate_on_streams_that_they_were_not_made_of()
     assert np.all(np.diff([ideal_thresholds(settings, one) for one in (1e-1, 1e-2, 1e-3, 1e-6)], axis=0) > 0)
 
 
+def test_streams_are_simulated_in_parts_where_their_numbers_are_many(monkeypatch: pytest.MonkeyPatch) -> None:
+    settings, held = Settings(p=1, window=5, shift=1.0), []
+    whole = thresholds._simulated(settings, silent)
+
+    def bank(settings: Settings, streams: int) -> Bank:
+        held.append(streams)
+        return Bank(settings, streams)
+
+    monkeypatch.setattr(thresholds, "Bank", bank)
+    monkeypatch.setattr(thresholds, "HELD", 30 * settings.numbers)
+    told: list[int] = []
+    parts = thresholds._simulated(settings, lambda _, done, of: told.append(done if done <= of else -1))
+    assert held == [30, 30, 30, 30, 8] and told == sorted(told) and told[-1] == 128 * 22 * settings.memory
+    assert parts.shape == whole.shape and np.allclose(parts.mean(axis=0), whole.mean(axis=0), rtol=0.02)
+    for outputs, window, words in ((1449, 2, "outputs: got 1449; needed 1448 at most"), (1, 4 * 10**6, "window: got 4000000")):
+        with pytest.raises(InvalidData, match=words):
+            checked(Settings(outputs, window, 1.0))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(("model", "colour"), [(PLANT, 0.0), (PLANT, 0.8), (NOTHING, 0.5)])
 def test_false_alarms_on_fresh_records_are_no_more_than_stated(model: StateSpaceModel, colour: float) -> None:
@@ -390,6 +411,9 @@ def test_what_cannot_be_used_is_refused_in_a_line() -> None:
         ("healthy: output 1 of the model is constant (1)", lambda: Monitor(PLANT, still, u)),
         ("healthy: an output is an exact combination", lambda: Monitor(twin, y[:, [0, 1, 0]], u)),
         ("y: got (1.0, 2.0, 3.0)", lambda: made().update((1.0, 2.0, 3.0), (1.0,))),
+        ("y: got [1000", lambda: made().update([10**400, 1.0], (1.0,))),
+        ("y: got", lambda: made().update(np.array([1.0, 2j]), (1.0,))),
+        ("y: got shape", lambda: made().extend(1j * y[:3], u[:3])),
         ("it looks transposed", lambda: made().extend(y[:3].T, u[:3])),
         ("u: got shape (2, 1); needed (3, 1)", lambda: made().extend(y[:3], u[:2])),
         ("a mode of modulus 1.2", lambda: Monitor(StateSpaceModel([[1.2]], [[1.0]], [[0.0], [0.0]], [[0.0], [0.0]]), y, u)),

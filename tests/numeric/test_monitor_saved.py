@@ -18,6 +18,7 @@ import pytest
 
 import faultspace as fs
 from faultspace.base.errors import InvalidData, InvalidInput
+from faultspace.exact.algebra.validation import MAX_FILE_BYTES
 from faultspace.numeric import identify
 from faultspace.numeric.plant.monitor import saving
 from faultspace.numeric.plant.report.result_files import MODEL, of_monitor
@@ -96,6 +97,10 @@ def saved() -> str:
         (("shift",), 1e300, "shift: got 1e+300, expected numbers whose squares a float holds"),
         (("form", "A"), [[1e300] * 2] * 2, "A: got 1e+300, expected"),
         (("state", "bank", "sums"), [[1e300, 0.0]], "sums: got 1e+300, expected"),
+        (("state", "bank", "direction"), [[0.0] * 20], "direction: got numbers of size 0, expected"),
+        (("state", "bank", "column"), [[1e150] * 20], "column: got numbers of size 1e+150, expected"),
+        (("state", "bank", "moments"), [[[1e150] * 20] * 20], "moments: got numbers of size 1e+150, expected"),
+        (("shift",), 100.0, "shift: got 100; needed a smaller change of mean"),
         (("state", "samples"), -1, "samples: got -1, expected counts"),
         (("state", "missing"), [-1, 0], "missing: got [-1, 0], expected counts"),
         (("state", "root"), [[0.0]], "root: got shape (1, 1)"),
@@ -105,6 +110,7 @@ def saved() -> str:
         (("level",), 2.0, "level: got 2.0"),
         (("form",), None, "form: got None, expected an object"),
         (("form", "A"), [["x"]], "A: got what is no array of numbers"),
+        (("form", "A"), [[10**400] * 2] * 2, "A: got what is no array of numbers"),
         (("form", "push"), [0.0], "A: got shape"),
         (("form", "covariance"), [[1.0, 2.0], [2.0, 1.0]], "expected symmetric ones without negative variances"),
         (("form", "covariance"), [[1.0, 0.5], [0.0, 1.0]], "expected symmetric ones without negative variances"),
@@ -131,6 +137,20 @@ def test_a_file_that_is_no_monitor_is_refused(tmp_path: Path, place: tuple[str, 
     (tmp_path / "watch.json").write_text(json.dumps(document))
     with pytest.raises(InvalidData, match=re.escape(words)):
         fs.Monitor.load(tmp_path / "watch.json")
+
+
+def test_a_file_is_as_long_as_one_of_json_may_be(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    watch = made(seed=3)
+    watch.save(tmp_path / "watch.json")
+    with open(tmp_path / "huge.json", "wb") as file:
+        file.truncate(10**13)
+    with pytest.raises(InvalidInput, match=f"huge.json: got more than {MAX_FILE_BYTES} bytes"):
+        fs.Monitor.load(tmp_path / "huge.json")
+    assert saving.MOST == MAX_FILE_BYTES
+    monkeypatch.setattr(saving, "MOST", (tmp_path / "watch.json").stat().st_size - 1)
+    with pytest.raises(InvalidInput, match="the monitor takes"):
+        watch.save(tmp_path / "second.json")
+    assert not (tmp_path / "second.json").exists()
 
 
 def test_no_file_of_anybody_else_is_overwritten(tmp_path: Path) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from faultspace.base.progress import silent
@@ -20,7 +22,12 @@ def test_a_certificate_on_which_several_rest_is_counted_once(monkeypatch: pytest
     """Two readings, on pairs that share systems: their own counts, and that of the report, are of certificates that were decided."""
     decided: list[str] = []
     decide = checker.decide
-    monkeypatch.setattr(checker, "decide", lambda one, *rest: decided.append(structure_certificates.sha256(one)) or decide(one, *rest))
+
+    def counted(one: dict[str, Any], *rest: Any) -> Any:
+        decided.append(structure_certificates.sha256(one))
+        return decide(one, *rest)
+
+    monkeypatch.setattr(checker, "decide", counted)
     for kept in (alternatives.ranked, alternatives.compared, alternatives.fault_space_basis):
         kept.cache_clear()
     systems = [one for one in random_systems(QQ, 12, seed=3) if one.n <= 3]

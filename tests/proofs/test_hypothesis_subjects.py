@@ -128,10 +128,10 @@ def test_every_system_of_a_box_has_a_change_that_puts_its_columns_into_z(dimensi
 
 def test_feedback_is_put_right_by_no_change_of_state_where_the_model_is_asked_for() -> None:
     first = of([[0]], [[1]], [["1"], ["0"]], [["0"], ["0"]])
-    pair = Compared(first, of([["1/2"]], [[1]], [["1"], ["0"]], [["0"], ["0"]]), None, True, 1, 0)
+    pair = Compared(first, of([["1/2"]], [[1]], [["1"], ["0"]], [["0"], ["0"]]), None, True, 1, frozenset())
     assert pair.similarity is None and not pair.degenerate
     assert not same_model().holds(pair) and theorem_3_i().holds(pair)
-    moved_only = Compared(first, of([[0]], [[-2]], [["-1/2"], ["0"]], [["0"], ["0"]]), None, True, 1, 0)
+    moved_only = Compared(first, of([[0]], [[-2]], [["-1/2"], ["0"]], [["0"], ["0"]]), None, True, 1, frozenset())
     assert same_model().holds(moved_only) and not columns_in_space(of([[0]], [[1]], [[1], [0]], [[0], [1]]), first)
 
 

@@ -12,9 +12,9 @@ import pytest
 
 from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, NotProved, compiled_again
 from faultspace.proofs.rocq.locks import held
-from faultspace.proofs.rocq.sentences import refusals, refused, sentences
+from faultspace.proofs.rocq.sentences import HEADLINES, refusals, refused, sentences
 from faultspace.proofs.rocq.sources import beyond, sources
-from faultspace.proofs.rocq.statements import HEADLINES, VOCABULARY, read
+from faultspace.proofs.rocq.statements import VOCABULARY, read
 from tests.thorough import every
 
 TEXTS = sources()

@@ -226,7 +226,7 @@ def test_words_that_say_more_than_is_known_are_gone(words: str) -> None:
 
 def test_a_counterexample_need_not_be_of_the_box_nor_a_certificate_of_one_system() -> None:
     (answer,) = fs.claim("lag <= 1", box={"n": [1, 1], "m": [1, 1], "p": [1, 1]}).answers
-    assert answer.tried.exhausted and answer.counterexample.system.n == 2
+    assert answer.tried.exhausted and answer.counterexample is not None and answer.counterexample.system.n == 2
     assert "the smallest one of a stated box of systems is shown" not in text(GLOSSARY)
     about = [json.loads(file.read_text("utf-8"))["statement"] for file in (ROOT / "proofs/certificates").glob("behaviour-equality-*.json")]
     assert about and all({"first", "second"} <= set(one) for one in about)

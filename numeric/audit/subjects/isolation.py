@@ -17,9 +17,9 @@ from functools import partial
 from types import SimpleNamespace, TracebackType
 from typing import Any, Self
 
-from ....base.errors import InvalidData
+from ....base.errors import InvalidData, shorten
 from ....base.processes import STANDARD, Limits
-from ..adapter import excused, not_promised
+from ..adapter import excused, known, not_promised
 from ..diagnosing.explaining import explained
 from ..records import Broken, Check, CheckResult, Measurement, Refused, perform
 from .programs import LOADING, Program
@@ -66,13 +66,21 @@ class Isolated:
         return _Remote(partial(self._ask, check.function))
 
     def _load(self) -> list[str]:
-        answer = json.loads(self._program.ask(json.dumps({"load": True}).encode(), LOADING))
+        line = self._program.ask(json.dumps({"load": True}).encode(), LOADING)
+        try:
+            answer = dict(json.loads(line))
+        except (ValueError, TypeError, RecursionError):
+            answer = {}
         if "invalid" in answer:
             self.close()
             raise InvalidData(str(answer["invalid"]))
+        offered = answer.get("functions")
+        if not known(offered):  # an adapter may change what is sent
+            self.close()
+            raise Broken(f"it says that it offers {shorten(offered)}, expected a list of functions")
+        self._apart = not_promised(SimpleNamespace(NOT_PROMISED=answer.get("not_promised")))
         self._loaded = True
-        self._apart = not_promised(SimpleNamespace(NOT_PROMISED=answer["not_promised"]))
-        return list(answer["functions"])
+        return list(offered)
 
     def _ask(self, function: str, question: dict[str, Any]) -> dict[str, Any]:
         """Return the answer to one question of a check. What breaks the process ends the check: nothing of it is asked after that."""

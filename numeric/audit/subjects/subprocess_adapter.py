@@ -19,7 +19,7 @@ import numpy as np
 
 from ....base.errors import InvalidData, shorten
 from ....base.processes import STANDARD, Limits
-from ..adapter import FUNCTIONS, ZeroStructure
+from ..adapter import FUNCTIONS, ZeroStructure, known
 from ..records import Broken, Refused
 from ..signatures import ARGUMENTS
 from .programs import LOADING, Program
@@ -58,7 +58,7 @@ class Exec:
             offered, self.NOT_PROMISED = answer.get("functions"), answer.get("not_promised", {})
         except (Broken, Refused) as failure:
             raise InvalidData(f"the program {self._program.command} does not speak the protocol: {failure}") from None
-        if not isinstance(offered, list) or any(name not in FUNCTIONS for name in offered):
+        if not known(offered):
             self.close()
             raise InvalidData(f"the program offers {shorten(offered)}, expected a list of some of {', '.join(FUNCTIONS)}")
         for name in offered:

@@ -358,6 +358,9 @@ class Predictor:
         """Take the step with a state that is not known, or with outputs missing or wild; `after` is the next one by the forecast alone."""
         form, noise = self.form, self._root
         root = np.zeros((len(form.A), 0)) if self.root is None else self.root
+        if not there.any():
+            self._keep(after, _lower(np.hstack([form.K @ noise, form.A @ root])))
+            return None
         outputs = np.hstack([noise, form.C @ root])  # times its transpose it is the covariance of e
         sizes = _lengths(outputs)
         # What is wild tells nothing of the state: an unstable model that follows it, cut off as it is, never comes back.
@@ -365,18 +368,26 @@ class Predictor:
         e = np.clip(e, -WILD * sizes, WILD * sizes)
         order, seen, p = np.argsort(~used, kind="stable"), int(np.sum(used)), form.p
         triangle = _lower(np.vstack([outputs[order], np.hstack([form.K @ noise, form.A @ root])]))
-        white = scipy.linalg.solve_triangular(triangle[:seen, :seen], e[used], lower=True)
+        white = _solved(triangle[:seen, :seen], e[used])
         expected = np.where(there, e, 0.0)
         expected[~there] = (triangle[:p, :seen] @ white)[~there[order]]
-        self.state, left = after + triangle[p:, :seen] @ white, triangle[p:, seen:]
-        reach = _lengths(left)
-        self.root = None if np.max(reach, initial=0.0) ** 2 < KNOWN else left
-        if not (np.all(reach <= self._most) and np.all(np.isfinite(self.state))):  # NaN is not, either
+        self._keep(after + triangle[p:, :seen] @ white, triangle[p:, seen:])
+        if seen < p:  # else the triangle is that of all outputs in their order
+            white = _solved(_lower(outputs), expected)
+        return white, e / sizes
+
+    def _keep(self, state: Array, root: Array) -> None:
+        """Take the state, known up to the root, unless it is as unknown as at the start."""
+        reach = _lengths(root)
+        self.state, self.root = state, None if np.max(reach, initial=0.0) ** 2 < KNOWN else root
+        if not (np.all(reach <= self._most) and np.all(np.isfinite(state))):  # NaN is not, either
             self.begun_anew = True
             self.restart()
-        if seen < p:  # else the triangle is that of all outputs in their order
-            white = scipy.linalg.solve_triangular(_lower(outputs), expected, lower=True)
-        return (np.asarray(white), e / sizes) if np.any(there) else None
+
+
+def _solved(triangle: Array, values: Array) -> Array:
+    """Return the lower triangle's solution; what is no finite number there is seen in the state."""
+    return np.asarray(scipy.linalg.solve_triangular(triangle, values, lower=True, check_finite=False))
 
 
 def _lower(wide: Array) -> Array:

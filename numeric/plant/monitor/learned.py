@@ -176,7 +176,7 @@ def array(document: Mapping[str, Any], key: str, shape: tuple[int, ...], *, miss
         raise InvalidData(f"{key}: is missing, expected an array of shape {shape}")
     try:
         found = np.array(document[key], dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InvalidData(f"{key}: got what is no array of numbers, expected one of shape {shape}") from None
     found = found.reshape(shape) if found.size == 0 and 0 in shape else found
     if found.shape != shape:

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ....base.arrays import Array
 from ....base.errors import InvalidData, shorten
@@ -29,7 +29,7 @@ from .alarms import MISSING, Alarm, Watched
 from .innovation_form import Predictor, innovation_form
 from .learned import MONITORING, Learned, array, learn
 from .saving import read, write
-from .statistics import MEMORY, TESTS, Bank, Settings, checked, roots
+from .statistics import MEMORY, TESTS, Bank, Latest, Settings, checked, roots
 from .thresholds import LEAST_BLOCKS
 
 SIMULATED = 5_000  # samples of the disturbance of a reduced model, where no healthy record is given
@@ -150,6 +150,7 @@ class Monitor(Shown):
 
     def _state(self) -> dict[str, Any]:
         """Return what changes from sample to sample, JSON-ready; null stands for what is unknown or has never been."""
+        numbers, recent = self._latest.in_order()
         return {
             "samples": self.samples,
             "not_judged": self.untested,
@@ -159,8 +160,8 @@ class Monitor(Shown):
             "quiet": self._quiet.tolist(),
             "beyond": plain(self._beyond),
             "statistics": plain(self.statistics),
-            "numbers": self._numbers.tolist(),
-            "recent": plain(self._recent),
+            "numbers": numbers.tolist(),
+            "recent": plain(recent),
             "bank": {name: values.tolist() for name, values in self._bank.state().items()},
             "state": self._predictor.state.tolist(),
             "root": plain(self._predictor.root),
@@ -178,10 +179,10 @@ class Monitor(Shown):
         self.missing, self._absent = _counts(state, "missing", (p,)), _counts(state, "absent", (p,))
         self.alarms = {test: _counts(state["alarms"], test, ()).item() for test in self.alarms}
         self._quiet = _counts(state, "quiet", (len(TESTS),))
-        self._numbers = _counts(state, "numbers", (self._settings.memory,))
         self._beyond = array(state, "beyond", (len(self.inputs),), missing=-np.inf)
         self.statistics = array(state, "statistics", (len(TESTS),), missing=np.nan)
-        self._recent = array(state, "recent", (self._settings.memory, p))
+        memory = self._settings.memory
+        self._latest = Latest(_counts(state, "numbers", (memory,)), array(state, "recent", (memory, p)))
         bank = {name: array(state["bank"], name, values.shape) for name, values in self._bank.state().items()}
         if not 0 <= bank["place"] < self._settings.window:
             raise InvalidData(f"place: got {shorten(state['bank']['place'])}, expected a place in the window of {self._settings.window}")
@@ -197,8 +198,8 @@ class Monitor(Shown):
         self._predictor.restart()
         cusum = float(self.calibration.threshold[TESTS.index("cusum")])
         self._bank = Bank(self._settings, 1, 2 * cusum)
-        self._numbers = np.full(self._settings.memory, self.samples)
-        self._recent = np.zeros((self._settings.memory, self._settings.p))  # innovations, the latest last
+        memory = self._settings.memory
+        self._latest = Latest(np.full(memory, self.samples), np.zeros((memory, self._settings.p)))
         self._quiet = np.full(len(TESTS), self._settings.window)  # samples below the threshold
         self._absent = np.zeros(self._settings.p, int)  # samples missing in a row
         self._beyond = np.full(len(self.inputs), -np.inf)  # sample at which an input was last beyond
@@ -234,27 +235,31 @@ class Monitor(Shown):
         number = self.samples
         self.samples += 1
         missing = ~np.isfinite(y)
-        self.missing += missing
-        self._absent = np.where(missing, self._absent + 1, 0)
+        begun = self._lacking(number, missing) if missing.any() or self._absent.any() else []
         self._beyond[(u < self._bounds[0]) | (u > self._bounds[1])] = number
         judged = self._predictor.step(y, u)
         if self._predictor.begun_anew:
             self.begun_anew += self._last_anew <= number + 1 - int(self._absent.min())  # once a gap
             self._last_anew = number + 1
-        begun = [self._gone(number, int(i)) for i in np.flatnonzero(self._absent == self._settings.window)]
         if judged is None:
             self.untested += 1
             self.statistics = np.full(len(TESTS), np.nan)
             return tuple(begun), np.full(len(y), np.nan)
         z, s = judged
-        self._numbers[:-1], self._recent[:-1] = self._numbers[1:], self._recent[1:]
-        self._numbers[-1], self._recent[-1] = number, z
+        self._latest.add(number, z)
         self.statistics = self._bank.update(z[None], s[None])[0]
         above = self.statistics > self.calibration.threshold
         fresh = above & (self._quiet >= self._settings.window)
         self._quiet = np.where(above, 0, self._quiet + 1)
-        begun += [self._alarm(number, int(test), s) for test in np.flatnonzero(fresh)]
+        if fresh.any():
+            begun += [self._alarm(number, int(test), s) for test in np.flatnonzero(fresh)]
         return tuple(begun), z
+
+    def _lacking(self, number: int, missing: NDArray[np.bool_]) -> list[Alarm]:
+        """Count the outputs that are missing, and return the alarms of those that are for a window now."""
+        self.missing += missing
+        self._absent = np.where(missing, self._absent + 1, 0)
+        return [self._gone(number, int(i)) for i in np.flatnonzero(self._absent == self._settings.window)]
 
     def _gone(self, number: int, output: int) -> Alarm:
         self.alarms[MISSING] += 1
@@ -268,32 +273,17 @@ class Monitor(Shown):
         if name == "residual":
             share, onset = s * s, number
         elif name == "chi-square":
-            share, onset = bank.scores[0], self._changed()
+            share, onset = bank.scores[0], self._latest.changed()
         elif name == "cusum":
-            share, onset = (self._root @ bank.sums[0] / deviations) ** 2, self._moved()
+            share, onset = (self._root @ bank.sums[0] / deviations) ** 2, self._latest.moved()
         else:
             share = np.sum((bank.direction[0].reshape(rows, -1) @ self._root.T / deviations) ** 2, axis=0)
-            onset = self._changed()
+            onset = self._latest.changed()
         self.alarms[name] += 1
         outputs = tuple(self.outputs[i] for i in np.argsort(-share, kind="stable") if 2 * share[i] >= share.max())
         beyond = tuple(self.inputs[j] for j in np.flatnonzero(self._beyond > number - self._settings.window))
         threshold = float(self.calibration.threshold[test])
         return Alarm(number, name, float(self.statistics[test]), threshold, outputs, onset, self._rank_gap(), beyond)
-
-    def _changed(self) -> int:
-        """Return the sample from which the power of the innovations most likely was larger, among those remembered: of m Gaussian samples
-        with p outputs and the power q the likelihood ratio is m (q - p - p log(q / p)) / 2."""
-        p, counts = self._settings.p, np.arange(1, self._settings.memory + 1)
-        power = np.cumsum(np.sum(self._recent[::-1] ** 2, axis=1)) / counts
-        ratio = np.where(power > p, counts * (power - p - p * np.log(np.maximum(power, p) / p)), 0.0)
-        return int(self._numbers[-1 - int(np.argmax(ratio))])
-
-    def _moved(self) -> int:
-        """Return the sample from which the mean of the innovations most likely was another, among those remembered: of m samples with the
-        sum S the likelihood ratio is S'S / (2 m)."""
-        sums = np.cumsum(self._recent[::-1], axis=0)
-        ratio = np.sum(sums**2, axis=1) / np.arange(1, self._settings.memory + 1)
-        return int(self._numbers[-1 - int(np.argmax(ratio))])
 
     def _rank_gap(self) -> int:
         """Return by how much the rank of the Hankel moments grows with a block row, noise left out."""
@@ -479,22 +469,26 @@ def _simulated(model: Any) -> tuple[Array, Array]:
 
 
 def _row(values: ArrayLike, width: int, name: str, noun: str) -> Array:
-    try:
-        row = np.atleast_1d(np.asarray(values, dtype=np.float64))
-    except (TypeError, ValueError):
-        row = np.zeros(0)
+    row = np.atleast_1d(_numbers(values))
     if row.shape != (width,):
         raise InvalidData(f"{name}: got {shorten(values)}; needed {counted(width, 'number')}, one for each {noun} of one sample")
     return row
 
 
 def _rows(values: ArrayLike, width: int, name: str, noun: str) -> Array:
-    try:
-        rows = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        rows = np.zeros(())
+    rows = _numbers(values)
     rows = rows[:, None] if rows.ndim == 1 and width == 1 else rows
     if rows.ndim != 2 or rows.shape[1] != width:
         hint = "; it looks transposed" if rows.ndim == 2 and rows.shape[0] == width else ""
         raise InvalidData(f"{name}: got shape {rows.shape}; needed (samples, {width}), one column for each {noun}{hint}")
     return rows
+
+
+def _numbers(values: ArrayLike) -> Array:
+    """Return the real numbers, infinite where no float holds them; an array of no shape that is wanted for what are none."""
+    try:
+        with np.errstate(over="ignore"):
+            numbers = np.asarray(values, dtype=np.float64) if np.asarray(values).dtype.kind != "c" else np.zeros((0, 0))
+    except (TypeError, ValueError, OverflowError):
+        numbers = np.zeros((0, 0))
+    return numbers

@@ -17,6 +17,7 @@ from ....base.writing import write_text
 from .learned import FORMAT
 
 MODEL = "model.json"  # what `identify` calls it; a test compares the two
+MOST = 1 << 26  # bytes of a file, as of all JSON that is read
 HEAD = 200  # bytes of a file that is there already, in which its format stands
 
 
@@ -24,7 +25,10 @@ def write(path: str | os.PathLike[str], document: dict[str, Any]) -> None:
     """Write the document of a monitor. Raises InvalidInput where that cannot be, or where a file that is none is there already."""
     target = Path(path)
     refuse(target)
-    write_text(target, json.dumps(document, allow_nan=False) + "\n")
+    text = json.dumps(document, allow_nan=False) + "\n"
+    if len(text) > MOST:
+        raise InvalidInput(f"{quote_path(str(path))}: the monitor takes {len(text)} bytes, expected at most {MOST}: give a shorter window")
+    write_text(target, text)
 
 
 def refuse(path: Path) -> None:
@@ -48,7 +52,10 @@ def read(path: str | os.PathLike[str]) -> Any:
     source = source / MODEL if source.is_dir() else source
     try:
         with in_file(str(source)), open_regular(source, "a saved monitor or a model") as stream:
-            return json.loads(stream.read().decode("utf-8-sig"))
+            content = stream.read(MOST + 1)
+            if len(content) > MOST:
+                raise InvalidInput(f"got more than {MOST} bytes, expected at most that")
+            return json.loads(content.decode("utf-8-sig"))
     except InvalidInput:
         raise
     except (ValueError, RecursionError):

@@ -17,14 +17,17 @@ come back soon when a fault goes, and one wild sample is forgotten.
 
 Settings     window, shift, block rows, memory; `checked` refuses what no memory holds
 Bank         the state of the four statistics
+Latest       the innovations of the last samples, and since when they most likely are others
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import isqrt
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ....base.arrays import Array
 from ....base.errors import InvalidData, shorten
@@ -34,7 +37,8 @@ TESTS = ("residual", "chi-square", "cusum", "hankel")
 MEMORY = 5  # windows that the moments remember
 LONGEST = 30.0  # deviations, beside the usual root of p, to which an innovation is shortened
 REMEMBERED = ("sums", "energies", "squares", "column", "moments", "direction")  # by a bank, from sample to sample
-HELD = 1 << 24  # innovations that are remembered at most, 128 MiB
+HELD = 1 << 24  # numbers that are remembered at most, 128 MiB
+ROUNDING = 1e-9  # share, in numbers of which a file has all digits
 HEIGHT, MOST_ROWS = 30, 10  # numbers in a Hankel column, and block rows, at most; two rows at least
 
 
@@ -56,13 +60,20 @@ class Settings:
         """Return the block rows of a Hankel column."""
         return int(np.clip(HEIGHT // self.p, 2, MOST_ROWS))
 
+    @property
+    def numbers(self) -> int:
+        """Return how many numbers a Bank holds of one stream: a window, and the moments with their change."""
+        return self.window * (self.p + 1) + 2 * (self.p * self.rows) ** 2
+
 
 def checked(settings: Settings) -> Settings:
-    """Return the settings. Raises InvalidData for a window that remembers more innovations than HELD."""
-    if settings.memory * settings.p > HELD:
-        most = HELD // (MEMORY * settings.p)
+    """Return the settings. Raises InvalidData for outputs whose moments are more numbers than HELD, or a window of so many innovations."""
+    p = settings.p
+    if settings.numbers - settings.window * (p + 1) > HELD:
+        raise InvalidData(f"outputs: got {p}; needed {isqrt(HELD // 8)} at most, of whose pairs the moments are remembered: leave some out")
+    if settings.memory * p > HELD:
         raise InvalidData(
-            f"window: got {shorten(settings.window)}; needed {most} samples at most for {counted(settings.p, 'output')}, of whose "
+            f"window: got {shorten(settings.window)}; needed {HELD // (MEMORY * p)} samples at most for {counted(p, 'output')}, of whose "
             f"innovations {MEMORY} windows are remembered"
         )
     return settings
@@ -94,8 +105,13 @@ class Bank:
         return {name: getattr(self, name) for name in REMEMBERED} | {"place": np.array(self._place)}
 
     def resume(self, state: Mapping[str, Array]) -> None:
-        """Go on from what another bank of these settings remembers."""
+        """Go on from what another bank of these settings remembers. Raises InvalidData for what no bank does."""
+        longest, most = self._longest * (1 + ROUNDING), float(np.finfo(float).max ** 0.25)  # what is squared twice stays a float
         for name in REMEMBERED:
+            size = np.sqrt(np.sum(state[name] ** 2)) if name == "direction" else np.abs(state[name]).max(initial=0.0)
+            least, greatest = {"direction": (1 - ROUNDING, 1 + ROUNDING), "column": (0.0, longest)}.get(name, (0.0, most))
+            if not least <= size <= greatest:
+                raise InvalidData(f"{name}: got numbers of size {size:g}, expected {least:g} to {greatest:g} in a saved monitor")
             setattr(self, name, np.array(state[name]))
         self._place = int(state["place"])
 
@@ -123,6 +139,39 @@ class Bank:
         found[:, 0], found[:, 1] = np.maximum.reduce(np.abs(s), axis=1), add(self.energies, axis=1)
         found[:, 2], found[:, 3] = kept, root
         return found
+
+
+class Latest:
+    """These are the `innovations` (memory, p) of the samples with these `numbers`, the latest last, of which `add` forgets the oldest."""
+
+    def __init__(self, numbers: NDArray[np.int_], innovations: Array) -> None:
+        self._numbers, self._innovations, self._place = numbers, innovations, 0  # rings, which go on at the place
+
+    def add(self, number: int, innovation: Array) -> None:
+        """Take the innovation (p,) of this sample."""
+        self._numbers[self._place], self._innovations[self._place] = number, innovation
+        self._place = (self._place + 1) % len(self._numbers)
+
+    def in_order(self) -> tuple[NDArray[np.int_], Array]:
+        """Return numbers and innovations, the latest last."""
+        return np.roll(self._numbers, -self._place), np.roll(self._innovations, -self._place, axis=0)
+
+    def changed(self) -> int:
+        """Return the sample from which the power of the innovations most likely was larger: of m Gaussian samples with p outputs and the
+        power q the likelihood ratio is m (q - p - p log(q / p)) / 2."""
+        numbers, innovations = self.in_order()
+        p, counts = innovations.shape[1], np.arange(1, len(numbers) + 1)
+        power = np.cumsum(np.sum(innovations[::-1] ** 2, axis=1)) / counts
+        ratio = np.where(power > p, counts * (power - p - p * np.log(np.maximum(power, p) / p)), 0.0)
+        return int(numbers[-1 - int(np.argmax(ratio))])
+
+    def moved(self) -> int:
+        """Return the sample from which the mean of the innovations most likely was another: of m samples with the sum S the likelihood
+        ratio is S'S / (2 m)."""
+        numbers, innovations = self.in_order()
+        sums = np.cumsum(innovations[::-1], axis=0)
+        ratio = np.sum(sums**2, axis=1) / np.arange(1, len(numbers) + 1)
+        return int(numbers[-1 - int(np.argmax(ratio))])
 
 
 def roots(moments: Array) -> Array:

@@ -34,7 +34,7 @@ from ....base.arrays import Array
 from ....base.errors import InvalidData
 from ....base.progress import Progress, silent
 from ....base.sheets import counted
-from .statistics import TESTS, Bank, Settings
+from .statistics import HELD, TESTS, Bank, Settings
 
 STREAMS, BLOCKS, SEED = 128, 20, 20250519  # streams simulated, blocks of each, and their seed
 TAIL = 0.1  # share of the maxima from which a tail is extrapolated
@@ -77,16 +77,25 @@ def _kept(settings: Settings) -> list[Array]:
 
 
 def _simulated(settings: Settings, heard: Progress) -> Array:
-    draw = np.random.default_rng(SEED)
-    bank, memory = Bank(settings, STREAMS), settings.memory
+    """Simulate so many streams side by side as HELD allows."""
+    memory, side = settings.memory, int(np.clip(HELD // settings.numbers, 1, STREAMS))
     maxima = np.zeros((BLOCKS, STREAMS, len(TESTS)))
-    for k in range(-2 * memory, BLOCKS * memory):
-        z = draw.standard_normal((STREAMS, settings.p))
-        found = bank.update(z, z)
-        heard("simulating streams without a fault", k + 2 * memory + 1, (BLOCKS + 2) * memory)
-        if k >= 0:
-            np.maximum(maxima[k // memory], found, out=maxima[k // memory])
+    for first in range(0, STREAMS, side):
+        draw, part = np.random.default_rng(SEED + first), maxima[:, first : first + side]
+        bank = Bank(settings, part.shape[1])
+        for k in range(-2 * memory, BLOCKS * memory):
+            z = draw.standard_normal((part.shape[1], settings.p))
+            found = bank.update(z, z)
+            done, steps = k + 2 * memory + 1, (BLOCKS + 2) * memory
+            heard("simulating streams without a fault", first * steps + part.shape[1] * done, STREAMS * steps)
+            if k >= 0:
+                np.maximum(part[k // memory], found, out=part[k // memory])
     result = maxima.reshape(-1, len(TESTS))
+    if not result[:, TESTS.index("cusum")].any():
+        raise InvalidData(
+            f"shift: got {settings.shift:g}; needed a smaller change of mean, in deviations: no CUSUM for this one begins without a fault, "
+            "so that none can be calibrated: try 1.0"
+        )
     result.setflags(write=False)
     return result
 

@@ -15,13 +15,14 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from ....base.errors import InvalidInput, quote_path
 from ....base.regular_files import open_own
-from ....base.writing import write_text
+from ....base.writing import NO_LINK, write_text
 
 MANIFEST = ".faultspace-files.json"
 FORMAT = "faultspace-files/1"
@@ -45,19 +46,38 @@ def replace(made: Path, folder: Path, names: Sequence[str]) -> list[str]:
     """Move the files of these names from the folder `made` into `folder`, and remove those of ours that `made` lacks; the names that were
     written. Raises InvalidInput, before anything is moved, where a file of these names is not ours."""
     refuse(folder, names)
-    written = [name for name in names if (made / name).exists()]
-    before, new = _known(folder), {name: [_digest(made / name)] for name in written}
-    after = {name: digests for name, digests in before.items() if name not in names} | new
-    _note(folder, {name: before.get(name, []) + new.get(name, []) for name in before.keys() | new.keys()})
-    for name in written:
-        with open(made / name, "rb+") as stream:  # what takes the place of an older answer is on the disk first
-            os.fsync(stream.fileno())
-        os.replace(made / name, folder / name)
+    with _held(made) as at:
+        written = [name for name in names if name in os.listdir(made if at is None else at)]
+        before, new = _known(folder), {name: [_digest(made / name)] for name in written}
+        after = {name: digests for name, digests in before.items() if name not in names} | new
+        _note(folder, {name: before.get(name, []) + new.get(name, []) for name in before.keys() | new.keys()})
+        for name in written:
+            path = made / name if at is None else name
+            descriptor = os.open(path, os.O_RDWR | NO_LINK, dir_fd=at)  # what takes the place of an older answer is on the disk first
+            try:
+                os.fsync(descriptor)
+            finally:
+                os.close(descriptor)
+            os.replace(path, folder / name, src_dir_fd=at)
     for name in names:
         if name not in written:
             (folder / name).unlink(missing_ok=True)
     _note(folder, after)
     return written
+
+
+@contextmanager
+def _held(folder: Path) -> Iterator[int | None]:
+    """Yield a descriptor of the folder, None where there are none of folders: what others put in its place meanwhile is not taken for it.
+    Raises OSError for a link."""
+    if os.open not in os.supports_dir_fd:
+        yield None
+        return
+    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | NO_LINK)
+    try:
+        yield descriptor
+    finally:
+        os.close(descriptor)
 
 
 def _ours(path: Path, digests: Sequence[str]) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -101,6 +102,25 @@ def test_who_ends_the_audit_itself_ends_it_without_success(tmp_path: Path) -> No
     words = ["audit", adapter, "--check", CHECKS[0], "--badge", str(badge), "--junit", str(junit)]
     run = subprocess.run([sys.executable, "-m", "faultspace", *words], capture_output=True, text=True, timeout=120)
     assert run.returncode not in (0, 1) and not badge.exists() and not junit.exists() and "0 failed" not in run.stdout
+
+
+@pytest.mark.parametrize("told", ["7", "[]", "[1]", '["no function"]', "None"])
+def test_who_says_that_there_is_nothing_to_ask_is_not_audited(told: str, tmp_path: Path) -> None:
+    adapter = _adapter(tmp_path, "pass")
+    lie = f"lambda one: written(one | {{'functions': {told}}} if 'functions' in one else one)"
+    change = f"import json\nwritten = json.dumps\njson.dumps = {lie}\n"
+    Path(adapter).write_text(change + Path(adapter).read_text("utf-8"), "utf-8")
+    run = command("audit", adapter, "--check", CHECKS[0])
+    assert run.code == 2 and run.out == "" and "cannot be loaded" in run.err and len(run.err.splitlines()) == 1
+
+
+def test_files_of_an_audit_that_are_none_end_in_a_line(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "deep").write_text("[" * 200_000)
+    for words in (("--from", "pipe"), ("--from", "deep"), ("--expected-failures", "pipe")):
+        asked = [sys.executable, "-m", "faultspace", "audit", *words]
+        run = subprocess.run(asked, cwd=tmp_path, capture_output=True, text=True, timeout=120)
+        assert run.returncode == 2 and len(run.stderr.splitlines()) == 1, run.stderr
 
 
 def test_arrays_cross_as_they_are_and_nothing_else_is_made() -> None:
