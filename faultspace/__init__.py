@@ -3,8 +3,8 @@
     import faultspace as fs
 
 System, analyze, compare, limit    an exact system; its structure; whether two are equivalent; what subspace identification converges to
-certify, check, verify             a certificate of what is so; the checker's word on it; every claim of the paper decided anew
-claim                              a claim of your own about such systems: refuted by the smallest counterexample, or not
+certify, check, verify             a certificate of what is so; the checker's word on it; the claims of the ledger decided anew
+claim                              a claim of your own about such systems: refuted by a counterexample, proved, or neither
 conjecture                         the sharpest bounds on a quantity of such systems by others that nothing that was tried refutes
 identify, read_record              from measured data to model, number of faults, fault space and fault signal; a record from a file
 Monitor                            a model against a stream of samples: alarms at a stated rate of false ones

@@ -130,7 +130,7 @@ def verify(
     verbose: Verbose = False,
     json: Json = False,
 ) -> int:
-    """Decide every claim of the paper.
+    """Decide the claims of the paper, as its review states them.
 
     A claim gets a line; -v adds the long tables, --claim prints a page of one. Exit 0 if every verdict is the expected one, else 1.
     """
@@ -475,7 +475,7 @@ def examples(
 ) -> int:
     """List or copy the packaged examples.
 
-    They are systems and experiments; into a folder goes a small record of faulty data, too.
+    They are systems, experiments and claims; into a folder goes a small record of faulty data, too.
     """
     from . import example_listing
 

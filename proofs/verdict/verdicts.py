@@ -52,7 +52,7 @@ class Verdict(StrEnum):
 
 
 _MEANINGS = {
-    Verdict.PROVED: "it holds for all systems and dimensions, by theorems that Rocq has checked, without axioms",
+    Verdict.PROVED: "it holds of all that it speaks of, by theorems that Rocq has checked, without axioms",
     Verdict.IDENTITY: "it holds for all values of the entries at the dimensions named, by polynomial identities expanded twice",
     Verdict.CERTIFIED: (
         "no counterexample was found among the systems tried, or what is said to exist is there, by certificates that the checker accepted"
