@@ -97,8 +97,9 @@ def checked_again(target: str, records: Sequence[AttackRecord] | None = None) ->
 
 
 def certified(record: AttackRecord) -> AttackRecord:
-    """Returns the record with words and certificates of its counterexample as they are made now, which is decided again at the stored point; the
-    record as it is where it has none, where its attack is gone, or where the point refutes nothing, which `checked_again` then says."""
+    """Returns the record with words and certificates of its counterexample as they are made now, which is decided again at the stored
+    point; the record as it is where it has none, where its attack is gone, or where the point refutes nothing, which `checked_again` then
+    says."""
     attack, witness = next((one for one in catalogue() if one.id == record["attack"]), None), record["witness"]
     if attack is None or witness is None:
         return record
