@@ -34,7 +34,7 @@ author = "The faultspace authors"
 version = release = faultspace.__version__
 html_title = f"faultspace {version}"
 
-extensions = ["myst_nb", "sphinx.ext.autodoc"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 root_doc = "docs/index"
 # Pages, each named: the tree has links from room to room, by which a pattern would find files twice.
 include_patterns = [

@@ -115,7 +115,8 @@ def verify(
 @dataclass(frozen=True)
 class _Machine:
     """Rocq's part in a run: the theorems that it checked, or why it failed (None: it is not here), a message about it, and the locks of
-    the theorems, which hold without it too. `believed`: by which programs and files it was checked.
+    the theorems, which hold without it too. `believed`: by which programs and files it was checked. `locked`: whether statements and
+    readings are those that were read.
     """
 
     theorems: Theorems | None
@@ -123,6 +124,7 @@ class _Machine:
     message: str
     locks: Mapping[str, str] = field(default_factory=dict)
     believed: Mapping[str, str | None] | None = None
+    locked: bool = True
 
 
 def _theorems(claims: Sequence[Claim], report: Progress) -> _Machine:
@@ -130,6 +132,10 @@ def _theorems(claims: Sequence[Claim], report: Progress) -> _Machine:
     names = {name for claim in claims for reading in claim.readings for name in reading.theorems}
     ids = {claim.id for claim in claims}
     names |= {name for one in ablations() if one.claim in ids and one.proof is not None for name in one.proof.theorems}
+    try:
+        held(sources())
+    except NotProved as error:
+        return _Machine(None, f"Rocq: {error}", f"failed: {error}", believed=_believed(), locked=False)
     if not names:
         return _Machine(None, None, "no theorem is named by these claims")
     try:
@@ -156,7 +162,7 @@ def _believed() -> Mapping[str, str | None] | None:
 def _with_theorems(result: ReadingResult, machine: _Machine) -> ReadingResult:
     """The verdict becomes PROVED where the theorems were checked and nothing else spoke against it."""
     names, outcome = result.reading.theorems, result.outcome
-    if not names or outcome.verdict == Verdict.ERROR:
+    if outcome.verdict == Verdict.ERROR or (machine.locked and not names):
         return result
     if machine.failure is not None:
         return replace(result, outcome=replace(outcome, verdict=Verdict.ERROR, evidence=machine.failure))

@@ -44,8 +44,22 @@ def _as_rational(value: object, where: str) -> fmpq:
     return parse_rational(value, where)
 
 
+class _Base:
+    """What Q and GF(p) are over themselves: of degree 1."""
+
+    degree: ClassVar[int] = 1
+
+    def block(self, element: Any) -> list[list[Any]]:
+        """Return [[element]], the 1 x 1 matrix of multiplication by the element."""
+        return [[element]]
+
+    def from_coordinates(self, coordinates: Sequence[Any]) -> Any:
+        """Return the element with these coordinates, of which there is one."""
+        return coordinates[0]
+
+
 @dataclass(frozen=True)
-class Rationals:
+class Rationals(_Base):
     """The field Q of the rational numbers, whose elements are of type flint.fmpq.
 
     `Rationals()` has no arguments, and all of them are equal. Its `element` takes integers, rational strings such as "-3/4", Fractions and
@@ -59,7 +73,6 @@ class Rationals:
     (1/2, '1/2', 1, 0)
     """
 
-    degree: ClassVar[int] = 1
     characteristic: ClassVar[int] = 0
 
     def element(self, value: object, where: str = "entry") -> Any:
@@ -72,14 +85,6 @@ class Rationals:
             return str(int(top)) if bottom == 1 else f"{int(top)}/{int(bottom)}"  # as str does below, several times faster
         return str(element)
 
-    def block(self, element: Any) -> list[list[Any]]:
-        """Return [[element]], the 1 x 1 matrix of multiplication by the element."""
-        return [[element]]
-
-    def from_coordinates(self, coordinates: Sequence[Any]) -> Any:
-        """Return the element with these coordinates, of which there is one."""
-        return coordinates[0]
-
     def to_json(self) -> object:
         """Return the `field` value of an exact file."""
         return "Q"
@@ -89,7 +94,7 @@ class Rationals:
 
 
 @dataclass(frozen=True)
-class PrimeField:
+class PrimeField(_Base):
     """The field GF(p) of the integers modulo a prime p below 2^64, whose elements are of type flint.nmod.
 
     `element` takes integers and integer strings, and no fractions; `write` gives the residue in 0..p-1 as a string.
@@ -104,7 +109,6 @@ class PrimeField:
     """
 
     p: int
-    degree: ClassVar[int] = 1
 
     def __post_init__(self) -> None:
         prime = whole(self.p)
@@ -131,14 +135,6 @@ class PrimeField:
     def write(self, element: Any) -> str:
         """Return the residue in 0..p-1 as a string."""
         return str(int(element))
-
-    def block(self, element: Any) -> list[list[Any]]:
-        """Return [[element]], the 1 x 1 matrix of multiplication by the element."""
-        return [[element]]
-
-    def from_coordinates(self, coordinates: Sequence[Any]) -> Any:
-        """Return the element with these coordinates, of which there is one."""
-        return coordinates[0]
 
     def to_json(self) -> object:
         """Return the `field` value of an exact file."""
@@ -313,12 +309,24 @@ QQ = Rationals()
 
 
 def field_from_json(value: object) -> Field:
-    """Return the field that the `field` value of an exact file names: "Q", a dict with "prime" or one with "minimal_polynomial".
+    """Return the field that the `field` value of an exact file names; each field's `to_json` writes what this reads.
 
-    The minimal polynomial is a list of rational strings or integers by ascending power. Each field's `to_json` writes what this reads.
+    Parameters
+    ----------
+    value : str or dict
+        "Q", a dict with "prime", or one with "minimal_polynomial", a list of rational strings or integers by ascending power.
 
-    Raises InvalidInput for anything else, for a number that is no prime, and for a polynomial that is reducible over Q.
+    Returns
+    -------
+    Rationals or PrimeField or NumberField
 
+    Raises
+    ------
+    InvalidInput
+        For anything else, for a number that is no prime, and for a polynomial that is reducible over Q.
+
+    Examples
+    --------
     >>> from faultspace.exact import field_from_json
     >>> [str(field_from_json(value)) for value in ("Q", {"prime": 3}, {"minimal_polynomial": ["-2", "0", "1"]})]
     ['Q', 'GF(3)', 'Q(a) with a^2 - 2 = 0']

@@ -61,8 +61,6 @@ class Matrix:
         entries = self.__dict__
         entries["field"], entries["nrows"], entries["ncols"], entries["flint"] = field, nrows, ncols, flint
 
-    # -- building -------------------------------------------------------------------------------------------------
-
     @staticmethod
     def of(entries: object, field: Field = QQ, *, shape: tuple[int, int] | None = None, where: str = "matrix") -> Matrix:
         """A matrix from nested sequences, a numpy array of integers, a sympy Matrix or DomainMatrix; `shape` is needed for empty ones.
@@ -116,8 +114,6 @@ class Matrix:
         for i in range(k):
             unit[i, i] = 1
         return Matrix(field, size, size, unit)
-
-    # -- reading --------------------------------------------------------------------------------------------------
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -193,8 +189,6 @@ class Matrix:
         return "[" + ", ".join(rows) + "]" if rows else f"[{self.nrows} x {self.ncols}]"
 
     __repr__ = __str__
-
-    # -- arithmetic -----------------------------------------------------------------------------------------------
 
     def __matmul__(self, other: Matrix) -> Matrix:
         other = self._mixes_with(other)
@@ -283,12 +277,24 @@ def stacked(*parts: Matrix) -> Matrix:
 
 
 def rank(matrix: Matrix) -> int:
-    """Return the rank of an nrows x ncols matrix over its field.
+    """Return the rank of an nrows x ncols matrix over its field; that of an empty one is 0.
 
-    A large matrix is looked at modulo a prime first: a minor that is not zero there is not zero, so that full rank there is full rank.
-    Nested lists are taken over Q. Raises nothing for a Matrix of any shape, and InvalidInput for what is no matrix; the rank of an empty
-    one is 0.
+    Parameters
+    ----------
+    matrix : Matrix, shape (nrows, ncols)
+        Nested lists are taken over Q.
 
+    Returns
+    -------
+    int
+
+    Raises
+    ------
+    InvalidInput
+        For what is no matrix; nothing for a Matrix of any shape.
+
+    Examples
+    --------
     >>> from faultspace.exact import Matrix, PrimeField, rank
     >>> rank(Matrix.of([[1, 2], [2, 4]])), rank(Matrix.of([[1, 2], [2, 1]])), rank(Matrix.of([[1, 2], [2, 1]], PrimeField(3)))
     (1, 2, 1)
@@ -303,12 +309,28 @@ def rank(matrix: Matrix) -> int:
 
 
 def row_echelon(matrix: Matrix) -> RowEchelon:
-    """Return the reduced row echelon form of an nrows x ncols matrix, without its zero rows, and its `pivots`.
+    """Return the reduced row echelon form of a matrix, without its zero rows, and its pivots.
 
-    `matrix` holds the form and `pivots` its leading columns. Two matrices have the same row space iff their forms are equal. Over Q a large
-    form comes from p-adic lifting [D82] and is checked exactly; over Q(a) it is the form of the block matrix, read in blocks. Nested
-    lists are taken over Q. Raises nothing for a Matrix of any shape, and InvalidInput for what is no matrix.
+    Two matrices have the same row space iff their forms are equal. Over Q a large form comes from p-adic lifting [D82] and is checked
+    exactly; over Q(a) it is the form of the block matrix, read in blocks.
 
+    Parameters
+    ----------
+    matrix : Matrix, shape (nrows, ncols)
+        Nested lists are taken over Q.
+
+    Returns
+    -------
+    RowEchelon
+        `matrix` is the form, rank x ncols, and `pivots` its leading columns.
+
+    Raises
+    ------
+    InvalidInput
+        For what is no matrix; nothing for a Matrix of any shape.
+
+    Examples
+    --------
     >>> from faultspace.exact import Matrix, row_echelon
     >>> form = row_echelon(Matrix.of([[0, 2, 4], [1, 1, 1], [1, 3, 5]]))
     >>> form.matrix, form.pivots
@@ -376,11 +398,25 @@ def _lifted_echelon(rational: Any) -> Any:
 
 
 def right_null_space(matrix: Matrix) -> Matrix:
-    """The columns of the result, ncols x nullity, are a basis of {x : M x = 0} for an nrows x ncols matrix M.
+    """Return a basis of {x : M x = 0} for an nrows x ncols matrix M.
 
-    Each column has a 1 in the place of its free variable and zeros in the places of the others. Nested lists are taken over Q. Raises
-    nothing for a Matrix of any shape, and InvalidInput for what is no matrix.
+    Parameters
+    ----------
+    matrix : Matrix, shape (nrows, ncols)
+        M; nested lists are taken over Q.
 
+    Returns
+    -------
+    Matrix, shape (ncols, nullity)
+        Each column has a 1 in the place of its free variable and zeros in the places of the others.
+
+    Raises
+    ------
+    InvalidInput
+        For what is no matrix; nothing for a Matrix of any shape.
+
+    Examples
+    --------
     >>> from faultspace.exact import Matrix, right_null_space
     >>> right_null_space(Matrix.of([[1, 0, 2], [0, 1, 3]]))
     [[-2], [-3], [1]]
@@ -407,11 +443,27 @@ def right_null_space(matrix: Matrix) -> Matrix:
 
 
 def left_null_space(matrix: Matrix) -> Matrix:
-    """The rows of the result, nullity x nrows, are a basis of {y : y M = 0} for an nrows x ncols matrix M.
+    """Return a basis of {y : y M = 0} for an nrows x ncols matrix M.
 
-    Of the matrix [O_s T_s] of a window they are the relations that the outputs satisfy on s samples. Nested lists are taken over Q. Raises
-    nothing for a Matrix of any shape, and InvalidInput for what is no matrix.
+    Of the matrix [O_s T_s] of a window these are the relations that the outputs satisfy on s samples.
 
+    Parameters
+    ----------
+    matrix : Matrix, shape (nrows, ncols)
+        M; nested lists are taken over Q.
+
+    Returns
+    -------
+    Matrix, shape (nullity, nrows)
+        The basis as rows.
+
+    Raises
+    ------
+    InvalidInput
+        For what is no matrix; nothing for a Matrix of any shape.
+
+    Examples
+    --------
     >>> from faultspace.exact import Matrix, left_null_space
     >>> left_null_space(Matrix.of([[1, 2], [2, 4], [0, 1]]))
     [[-2, 1, 0]]
@@ -441,11 +493,7 @@ def solve_left(matrix: Matrix, right_side: Matrix) -> Matrix | None:
     coefficients = form.matrix.columns(range(height, height + right_side.nrows)).transposed()
     if len(profile) == height:
         return coefficients
-    spread = Matrix.zero(matrix.field, len(profile), height).elements()
-    one = matrix.field.element(1)
-    for i, row in enumerate(profile):
-        spread[i][row] = one
-    return coefficients @ Matrix.from_elements(matrix.field, len(profile), height, spread)
+    return coefficients @ Matrix.identity(matrix.field, height).rows(profile)
 
 
 def _size(matrix: Matrix) -> str:

@@ -51,13 +51,26 @@ def is_schur(coefficients: Sequence[Fraction | int]) -> bool:
 
 
 def is_stable(A: Matrix) -> bool:
-    """This tells whether all eigenvalues of A, an n x n Matrix over Q or Q(a), lie inside the unit circle.
+    """Tell whether all eigenvalues of a square matrix lie inside the unit circle.
 
-    Over Q(a) it is asked for every embedding of the field in C. No eigenvalue is computed: the recursion of Schur and Cohn [S17] decides it
-    on the coefficients of det(qI - A).
+    No eigenvalue is computed: the recursion of Schur and Cohn [S17] decides it on the coefficients of det(qI - A).
 
-    Nested lists are taken over Q. Raises InvalidInput over GF(p), where there is no unit circle, and for what is no square matrix.
+    Parameters
+    ----------
+    A : Matrix, shape (n, n)
+        Over Q, as nested lists are taken to be, or Q(a), where it is asked for every embedding of the field in C.
 
+    Returns
+    -------
+    bool
+
+    Raises
+    ------
+    InvalidInput
+        Over GF(p), where there is no unit circle, and for what is no square matrix.
+
+    Examples
+    --------
     >>> from faultspace.exact import Matrix, is_stable
     >>> is_stable(Matrix.of([["1/2", 100], [0, "-1/2"]])), is_stable(Matrix.of([[0, 1], [-1, 0]]))
     (True, False)

@@ -113,9 +113,25 @@ class ARXLimit(Shown):
 def arx_limit(experiment: Experiment, lags: int) -> ARXLimit:
     """Compute what an ARX model of so many lags converges to as the number of samples goes to infinity, exact in every number.
 
-    `lags` is h >= 0, with (h + 1)(nu + p) at most 2048. Source: [LW92]; the module states what A and B need to be unique, and when the
-    plant is the true one. Raises InvalidInput for other lags, and where the limit is not unique, with what is missing.
+    Source: [LW92]; the module states what A and B need to be unique, and when the plant is the true one.
 
+    Parameters
+    ----------
+    experiment : Experiment
+    lags : int
+        h >= 0, a number of samples, with (h + 1)(nu + p) at most 2048.
+
+    Returns
+    -------
+    ARXLimit
+
+    Raises
+    ------
+    InvalidInput
+        For other lags, and where the limit is not unique, with what is missing.
+
+    Examples
+    --------
     >>> from faultspace.exact import arx_limit, read_experiment
     >>> system = {"A": [["1/2"]], "B": [[1]], "C": [[1]], "D": [[0]], "F": [[1]], "G": [[0]]}
     >>> found = arx_limit(read_experiment({**system, "s": 1, "past": 1, "u_filter": [[[1, 0]]], "v_filter": [[[0, 1]]]}), 2)

@@ -118,13 +118,27 @@ class Experiment(Shown):
 
 
 def read_experiment(data: object, *, where: str = "experiment") -> Experiment:
-    """Return the Experiment that the dict of an exact file holds; `where` is how messages call it.
+    """Return the Experiment that the dict of an exact file holds.
 
-    The dict has "A", "B", "C", "D", "F", "G" and the sizes as in a system's file, the block rows "s" and "past", "u_filter" and "v_filter",
-    and "w_filter" where there is output noise; the shapes are those of Experiment.
+    Parameters
+    ----------
+    data : dict
+        "A", "B", "C", "D", "F", "G" and the sizes as in a system's file, the block rows "s" and "past", "u_filter" and "v_filter", and
+        "w_filter" where there is output noise; the shapes are those of Experiment.
+    where : str
+        How messages call it.
 
-    Raises InvalidInput with one line that names the place, for what is missing, unknown or outside what an Experiment can be.
+    Returns
+    -------
+    Experiment
 
+    Raises
+    ------
+    InvalidInput
+        With one line that names the place, for what is missing, unknown or outside what an Experiment can be.
+
+    Examples
+    --------
     >>> from faultspace.exact import read_experiment
     >>> system = {"A": [["1/2"]], "B": [[1]], "C": [[1]], "D": [[0]], "F": [[1]], "G": [[0]]}
     >>> experiment = read_experiment({**system, "s": 2, "past": 2, "u_filter": [[[1, 0]]], "v_filter": [[[0, 1]]]})

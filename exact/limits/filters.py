@@ -104,13 +104,28 @@ class Filter:
 
 
 def read_filter(data: object, *, channels: int, where: str) -> Filter:
-    """Return the Filter of an experiment's file, for a signal of so many channels; `where` is how messages call it.
+    """Return the Filter of an experiment's file, for a signal of so many channels.
 
-    `data` is a list of matrices over lag, each of shape channels x noise, or a dict with "num", such a list, and "den", a list of rationals
-    that begins with "1".
+    Parameters
+    ----------
+    data : list or dict
+        A list of matrices over lag, each of shape channels x noise, or a dict with "num", such a list, and "den", a list of rationals
+        that begins with "1".
+    channels : int
+    where : str
+        How messages call it.
 
-    Raises InvalidInput with one line that names the place.
+    Returns
+    -------
+    Filter
 
+    Raises
+    ------
+    InvalidInput
+        With one line that names the place.
+
+    Examples
+    --------
     >>> from faultspace.exact import read_filter
     >>> read_filter([[["1"]], [["1/2"]]], channels=1, where="u_filter").memory
     1

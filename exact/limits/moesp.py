@@ -173,14 +173,28 @@ def markov_parameters(A: Matrix, B: Matrix, C: Matrix, D: Matrix, count: int) ->
 def limit(experiment: Experiment | Mapping[str, Any]) -> PopulationLimits:
     """Compute what PI-MOESP and PO-MOESP converge to as the number of samples goes to infinity, exact in every number.
 
-    `experiment` is an Experiment, or the dict that an experiment's file holds: "A", "B", "C", "D", "F", "G" with rational entries, the
-    block rows "s" and "past", and the filters "u_filter" and "v_filter" (and "w_filter" of the noise) that make the stationary input, fault
-    and noise out of white noise. The PopulationLimits has `past_inputs` and `past_outputs` (ranks and column spaces beside the one of O_s)
-    and `true_AC` and `moesp`, the limits of B (n x n_u) and D (p x n_u), None where they are not unique. Source: [G25]; [VV07] for PI- and
-    PO-MOESP.
+    Source: [G25]; [VV07] for PI- and PO-MOESP.
 
-    Raises InvalidInput where A is not stable, where an entry is not rational, and where the input does not excite s + past block rows.
+    Parameters
+    ----------
+    experiment : Experiment or dict
+        A dict is what an experiment's file holds: "A", "B", "C", "D", "F", "G" with rational entries, the block rows "s" and "past",
+        and the filters "u_filter" and "v_filter" (and "w_filter" of the noise) that make the stationary input, fault and noise out of
+        white noise.
 
+    Returns
+    -------
+    PopulationLimits
+        `past_inputs` and `past_outputs` have ranks and column spaces beside the one of O_s; `true_AC` and `moesp` are the limits of B
+        (n x n_u) and D (p x n_u), None where they are not unique.
+
+    Raises
+    ------
+    InvalidInput
+        Where A is not stable, where an entry is not rational, and where the input does not excite s + past block rows.
+
+    Examples
+    --------
     >>> import faultspace as fs
     >>> system = {"A": [["1/2"]], "B": [[1]], "C": [[1]], "D": [[0]], "F": [[1]], "G": [[0]]}
     >>> found = fs.limit({**system, "s": 2, "past": 2, "u_filter": [[[1, 0]]], "v_filter": [[[0, 1]]]})

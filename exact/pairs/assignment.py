@@ -100,12 +100,26 @@ class Recovery(Shown):
 def assign_zeros(pencil: Exceptional | System, desired: object) -> ZeroAssignment:
     """Return a pair (Fhat P, Ghat P) of fault matrices, equivalent to the given ones, whose invariant zeros are the wanted ones.
 
-    `pencil` is that of `exceptional`, or a System; `desired` is a list of ascending coefficients in the field, or over Q a sympy polynomial
-    in one symbol, of degree at most zeta. The ZeroAssignment has `P` (n_z x r), `system`, and `unit` with D(q; P) = unit * desired; the
-    zeta - deg desired other zeros are infinite. Source: [F75] for minimal bases, [G25] Theorem 3.
+    Source: [F75] for minimal bases, [G25] Theorem 3.
 
-    Raises InvalidInput for the zero polynomial, a degree above zeta, and a polynomial that the unobservable modes of (A, C) do not divide.
+    Parameters
+    ----------
+    pencil : Exceptional or System
+    desired : list or sympy polynomial
+        Ascending coefficients in the field, or over Q a polynomial in one symbol, of degree at most zeta.
 
+    Returns
+    -------
+    ZeroAssignment
+        `P` (n_z x r), `system`, and `unit` with D(q; P) = unit * desired; the zeta - deg desired other zeros are infinite.
+
+    Raises
+    ------
+    InvalidInput
+        For the zero polynomial, a degree above zeta, and a polynomial that the unobservable modes of (A, C) do not divide.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, assign_zeros, exceptional, kernel_representation
     >>> pencil = exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])))
     >>> found = assign_zeros(pencil, [-2, 1])  # a zero at 2
@@ -140,12 +154,25 @@ def assign_zeros(pencil: Exceptional | System, desired: object) -> ZeroAssignmen
 def recoverable_pair(pencil: Exceptional | System) -> Recovery:
     """Return an equivalent pair whose fault the outputs give without the initial state: it has no zeros that can be avoided.
 
-    `pencil` is that of `exceptional`, or a System; the only finite zeros of the pair are the unobservable modes. The Recovery has `delay`,
-    a number of samples, and `left_inverse`, m x p(delay + 1), which takes r(0), ..., r(delay) to v(0). Such a pair exists for every system,
-    observable or not; the left inverse is computed, so that it is verified. Source: [HP98] for recovery, [G25] Theorem 3.
+    Such a pair exists for every system, observable or not; its only finite zeros are the unobservable modes. The left inverse is computed,
+    so that it is verified. Source: [HP98] for recovery, [G25] Theorem 3.
 
-    Raises ArithmeticError if the construction failed, which would be an error of ours.
+    Parameters
+    ----------
+    pencil : Exceptional or System
 
+    Returns
+    -------
+    Recovery
+        `delay`, a number of samples, and `left_inverse`, m x p(delay + 1), which takes r(0), ..., r(delay) to v(0).
+
+    Raises
+    ------
+    ArithmeticError
+        If the construction failed, which would be an error of ours.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, exceptional, kernel_representation, recoverable_pair
     >>> found = recoverable_pair(exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]))))
     >>> found.delay, found.left_inverse

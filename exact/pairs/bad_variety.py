@@ -127,11 +127,25 @@ class BadEquations(Shown):
 def bad_set(pencil: Exceptional | System) -> BadSet:
     """Return the dimension and the codimension of the bad P, the n_z x r matrices whose pair is not equivalent to the system.
 
-    `pencil` is that of `exceptional`, or any System over any field; dimensions are those over the algebraic closure. The BadSet also lists
-    the `strata`, by the minimal indices of what L(q) P spans. Source: [F75], [G25] Theorem 3.
+    Source: [F75], [G25] Theorem 3.
 
-    Raises InvalidInput where there are more than 100000 strata to compare.
+    Parameters
+    ----------
+    pencil : Exceptional or System
+        Over any field; dimensions are those over the algebraic closure.
 
+    Returns
+    -------
+    BadSet
+        It also lists the `strata`, by the minimal indices of what L(q) P spans.
+
+    Raises
+    ------
+    InvalidInput
+        Where there are more than 100000 strata to compare.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, bad_set, exceptional, kernel_representation
     >>> system = ResidualSystem.of([[0, 1], [0, 0]], [[1, 0], [0, 1]], [[1, 0], [0, 1]], [[0, 0], [0, 0]])
     >>> found = bad_set(exceptional(kernel_representation(system)))
@@ -155,11 +169,25 @@ def bad_set(pencil: Exceptional | System) -> BadSet:
 def bad_equations(pencil: Exceptional | System) -> BadEquations:
     """Return the equations of the bad P: the zeta + 1 coefficients of D(q; P), expanded in the entries of P and factored.
 
-    `pencil` is that of `exceptional`, or a System, over Q or a prime field, with at most 16 entries in P, which is n_z x r and bad iff all
-    coefficients are 0. The BadEquations has `entries`, the sympy symbols p11, p12, ..., `equations` and `factors`. Source: [G25] Theorem 3.
+    P, of shape n_z x r, is bad iff all coefficients are 0. Source: [G25] Theorem 3.
 
-    Raises InvalidInput for more entries, and over Q(a).
+    Parameters
+    ----------
+    pencil : Exceptional or System
+        Over Q or a prime field, with at most 16 entries in P.
 
+    Returns
+    -------
+    BadEquations
+        `entries`, the sympy symbols p11, p12, ..., `equations` and `factors`.
+
+    Raises
+    ------
+    InvalidInput
+        For more entries, and over Q(a).
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, bad_equations, exceptional, kernel_representation
     >>> found = bad_equations(exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]))))
     >>> found.entries, found.equations

@@ -113,13 +113,27 @@ class FeedbackClass(Shown):
 
 
 def behavior_name(kernel: KernelRepresentation | System) -> BehaviorName:
-    """The result names the output behaviour of any system: two names are equal iff `compare` finds the behaviours equal.
+    """Return the name of the output behaviour of any system: two names are equal iff `compare` finds the behaviours equal.
 
-    The name is the reduced basis, in Popov form, of all laws N(q) r = 0 that the p outputs obey: rows of shape (mu + 1) x p, monic at their
-    pivots. A BehaviorName can be hashed, so that systems can be sorted by behaviour. Source: [F75], [W91], [K80] 6.7 for the Popov form.
+    The name is the reduced basis, in Popov form, of all laws N(q) r = 0 that the p outputs obey. Source: [F75], [W91], [K80] 6.7 for the
+    Popov form.
 
-    `kernel` is a KernelRepresentation or a System. Raises InvalidInput for what is neither.
+    Parameters
+    ----------
+    kernel : KernelRepresentation or System
 
+    Returns
+    -------
+    BehaviorName
+        Its rows are of shape (mu + 1) x p, monic at their pivots; it can be hashed, so that systems can be sorted by behaviour.
+
+    Raises
+    ------
+    InvalidInput
+        For what is neither.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, behavior_name, kernel_representation
     >>> one = kernel_representation(ResidualSystem.of([["1/2"]], [[]], [[1]], [[]], m=0))
     >>> other = kernel_representation(ResidualSystem.of([["1/2"]], [[]], [[3]], [[]], m=0))
@@ -137,13 +151,27 @@ def behavior_name(kernel: KernelRepresentation | System) -> BehaviorName:
 
 
 def fault_class(kernel: KernelRepresentation | System) -> FaultClass:
-    """The result names the output behaviour among the systems with the same A (n x n) and C (p x n).
+    """Return the name of the output behaviour among the systems with the same A (n x n) and C (p x n).
 
-    Two such names are equal iff the behaviours are. The FaultClass holds A, C and the reduced row echelon form of the fault space Z, n_z x
-    (n + p) with rows [f' g']: the behaviour determines Z and Z the behaviour. Source: [G25] problem (11), Theorem 3.
+    Two such names are equal iff the behaviours are: the behaviour determines the fault space Z, and Z the behaviour. Source: [G25] problem
+    (11), Theorem 3.
 
-    `kernel` is a KernelRepresentation or a System. Raises InvalidInput for what is neither.
+    Parameters
+    ----------
+    kernel : KernelRepresentation or System
 
+    Returns
+    -------
+    FaultClass
+        A, C and the reduced row echelon form of Z, n_z x (n + p) with rows [f' g'].
+
+    Raises
+    ------
+    InvalidInput
+        For what is neither.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, fault_class, kernel_representation
     >>> systems = [ResidualSystem.of([[0]], F, [[1]], G) for F, G in (([[1]], [[0]]), ([[0]], [[1]]), ([[0]], [[0]]))]
     >>> first, second, third = (fault_class(kernel_representation(system)) for system in systems)
@@ -158,13 +186,26 @@ def fault_class(kernel: KernelRepresentation | System) -> FaultClass:
 def feedback_class(kernel: KernelRepresentation | System) -> FeedbackClass:
     """Return what the systems (A + Fhat K, C + Ghat K) have in common for all K, with the fault space, which they share.
 
-    A change v = K x + v' of the fault signal leaves the outputs what they are; two systems with n states and p outputs have the same
-    FeedbackClass iff their fault space is the same and the columns of [A' - A; C' - C] lie in it. Equal classes have equal behaviours, and
-    not conversely: a change of basis of the state changes the class. `residue`, of shape (n + p) x n, is [A; C] modulo the space. Source:
-    [G25] problem (11), [TSH01] for feedback.
+    A change v = K x + v' of the fault signal leaves the outputs what they are; two systems with n states and p outputs have the same class
+    iff their fault space is the same and the columns of [A' - A; C' - C] lie in it. Equal classes have equal behaviours, and not
+    conversely: a change of basis of the state changes the class. Source: [G25] problem (11), [TSH01] for feedback.
 
-    `kernel` is a KernelRepresentation or a System. Raises InvalidInput for what is neither.
+    Parameters
+    ----------
+    kernel : KernelRepresentation or System
 
+    Returns
+    -------
+    FeedbackClass
+        `residue`, of shape (n + p) x n, is [A; C] modulo the space.
+
+    Raises
+    ------
+    InvalidInput
+        For what is neither.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, feedback_class, kernel_representation
     >>> one = ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0], [0, 1]], [[0], [0]])
     >>> two = ResidualSystem.of([[0, 1], [5, 7]], [[0], [1]], [[1, 0], [0, 1]], [[0], [0]])  # A + F [5 7]

@@ -127,14 +127,28 @@ class ZeroFeedthrough(Shown):
 
 
 def zero_feedthrough(kernel: KernelRepresentation | System) -> ZeroFeedthrough:
-    """The result says how far the knowledge that G = 0 pins the fault matrix F (n x m), and with it the fault signal.
+    """Return how far the knowledge that G = 0 pins the fault matrix F (n x m), and with it the fault signal.
 
-    `kernel` is a left-invertible System with G = 0, or its KernelRepresentation. The ZeroFeedthrough has `pins_F` (whether F is known up to
-    a basis), `pins_v`, `ambiguity`, a number of dimensions, an `alternative` F' of another column space where there is one, and both delays
-    in samples. Source: [G25], [M73] and [TSH01] for the subspaces, [HP98] for recovery.
+    Source: [G25], [M73] and [TSH01] for the subspaces, [HP98] for recovery.
 
-    Raises InvalidInput unless G = 0 and the system is left-invertible.
+    Parameters
+    ----------
+    kernel : KernelRepresentation or System
+        Left-invertible, with G = 0.
 
+    Returns
+    -------
+    ZeroFeedthrough
+        `pins_F` (whether F is known up to a basis), `pins_v`, `ambiguity`, a number of dimensions, an `alternative` F' of another
+        column space where there is one, and both delays in samples.
+
+    Raises
+    ------
+    InvalidInput
+        Unless G = 0 and the system is left-invertible.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, kernel_representation, zero_feedthrough
     >>> found = zero_feedthrough(kernel_representation(ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], [[0]])))
     >>> found.pins_F, found.ambiguity, found.alternative.F  # C F = 0: the fault is seen one sample late

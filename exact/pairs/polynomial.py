@@ -215,13 +215,28 @@ class PairVerdict(Shown):
 def exceptional(kernel: KernelRepresentation | System) -> Exceptional:
     """Return the pencil q b - a of the fault space of a system: D(q; P) = det [P | q b - a] says which P are bad.
 
-    `kernel` is any System over any field, or its KernelRepresentation. The Exceptional has `n_z` and `columns` (r, the normal rank), the
-    shape of every P, `zeta`, the number of zeros of every good pair, `b` and `a` (n_z x zeta), and the `fixed` zeros that no P moves.
     Source: [G25] Theorem 3, [M73] and [TSH01] for the subspaces, [F75] for the rows of the left kernel.
 
-    Raises InvalidInput for what is no system, and ArithmeticError if the space does not have the dimension r + zeta, which would be an
-    error of ours.
+    Parameters
+    ----------
+    kernel : KernelRepresentation or System
+        Over any field.
 
+    Returns
+    -------
+    Exceptional
+        `n_z` and `columns` (r, the normal rank), the shape of every P, `zeta`, the number of zeros of every good pair, `b` and `a` (n_z
+        x zeta), and the `fixed` zeros that no P moves.
+
+    Raises
+    ------
+    InvalidInput
+        For what is no system.
+    ArithmeticError
+        If the space does not have the dimension r + zeta, which would be an error of ours.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, exceptional, kernel_representation
     >>> pencil = exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])))
     >>> pencil.n_z, pencil.columns, pencil.zeta, pencil.b, pencil.a
@@ -249,14 +264,28 @@ def pencil_of(given: Exceptional | KernelRepresentation | System) -> Exceptional
 
 
 def judge(pencil: Exceptional | System, P: object) -> PairVerdict:
-    """The verdict on a choice P of fault matrices (Fhat P, Ghat P) says whether it keeps the behaviour, and which zeros it has.
+    """Return the verdict on a choice P of fault matrices (Fhat P, Ghat P): whether it keeps the behaviour, and which zeros it has.
 
-    `pencil` is that of `exceptional`, or a System; P is n_z x r over the system's field, a Matrix, nested lists or a sympy matrix. The
-    PairVerdict has `good`, `polynomial` = D(q; P) (ascending, () where P is bad), `rank`, `system`, `finite_zeros` and a `reason` in words.
     Source: [G25] Theorem 3 (ii), repaired: P of full column rank is not enough.
 
-    Raises InvalidInput for another shape or field.
+    Parameters
+    ----------
+    pencil : Exceptional or System
+    P : Matrix, nested lists or sympy matrix, shape (n_z, r)
+        Over the system's field.
 
+    Returns
+    -------
+    PairVerdict
+        `good`, `polynomial` = D(q; P) (ascending, () where P is bad), `rank`, `system`, `finite_zeros` and a `reason` in words.
+
+    Raises
+    ------
+    InvalidInput
+        For another shape or field.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, exceptional, judge, kernel_representation
     >>> pencil = exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])))
     >>> judge(pencil, [[0], [1]]).reason

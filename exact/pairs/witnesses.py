@@ -98,11 +98,24 @@ class NoBadPair(Shown):
 def good_columns(pencil: Exceptional | System) -> GoodColumns:
     """Return a good P (n_z x r) with entries 0 and 1, a single 1 in each column, found without a search and decided exactly.
 
-    `pencil` is that of `exceptional`, or a System. `chosen` lists the r columns of [Fhat; Ghat] that are an equivalent pair by themselves:
-    the first independent columns of L(0), L(q) being a minimal basis, whose rank drops nowhere. Source: [F75], [G25] Theorem 3.
+    They are the first independent columns of L(0), L(q) being a minimal basis, whose rank drops nowhere. Source: [F75], [G25] Theorem 3.
 
-    Raises ArithmeticError if the construction failed, which would be an error of ours.
+    Parameters
+    ----------
+    pencil : Exceptional or System
 
+    Returns
+    -------
+    GoodColumns
+        `chosen` lists the r columns of [Fhat; Ghat] that are an equivalent pair by themselves.
+
+    Raises
+    ------
+    ArithmeticError
+        If the construction failed, which would be an error of ours.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, exceptional, good_columns, kernel_representation
     >>> found = good_columns(exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]))))
     >>> found.chosen, found.verdict.good
@@ -121,12 +134,24 @@ def good_columns(pencil: Exceptional | System) -> GoodColumns:
 def bad_pair(pencil: Exceptional | System) -> BadPair | NoBadPair:
     """Return a bad P (n_z x r) of full column rank by construction, or the reason why there is none.
 
-    `pencil` is that of `exceptional`, or a System. There is one iff r >= 1 and (A, C) is not observable, or r >= 2 and zeta >= 1. A BadPair
-    has `verdict` with P and a null vector, and `conditions`, the rows that make it bad; a NoBadPair has the `reason`. Source: [F75], [G25]
-    Theorem 3.
+    There is one iff r >= 1 and (A, C) is not observable, or r >= 2 and zeta >= 1. Source: [F75], [G25] Theorem 3.
 
-    Raises ArithmeticError if the construction failed, which would be an error of ours.
+    Parameters
+    ----------
+    pencil : Exceptional or System
 
+    Returns
+    -------
+    BadPair or NoBadPair
+        A BadPair has `verdict` with P and a null vector, and `conditions`, the rows that make it bad; a NoBadPair has the `reason`.
+
+    Raises
+    ------
+    ArithmeticError
+        If the construction failed, which would be an error of ours.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, bad_pair, exceptional, kernel_representation
     >>> system = ResidualSystem.of([[0, 1], [0, 0]], [[1, 0], [0, 1]], [[1, 0], [0, 1]], [[0, 0], [0, 0]])
     >>> found = bad_pair(exceptional(kernel_representation(system)))

@@ -101,13 +101,29 @@ class GenericRanks(Shown):
 def generic_window_ranks(n: int, p: int, m: int, windows: Iterable[int]) -> GenericRanks:
     """Return the rank of [O_s T_s] for almost all A (n x n), C (p x n), F (n x m), G (p x m), and where it is smaller.
 
-    `windows` are numbers of samples s >= 1. Each GenericWindow has the `rank` over the field Q(entries) and the polynomials in the entries
-    that say where it drops: where one of the `common_factors` vanishes or all `conditions` do. They are the maximal minors, multiplied out;
-    their number grows as a binomial coefficient in s p and n + s m, so that this is meant for matrices up to about 10 x 8. Source: [G25]
-    Theorem 2 after [SB21] for the ranks themselves.
+    The polynomials are the maximal minors, multiplied out; their number grows as a binomial coefficient in s p and n + s m, so that this is
+    meant for matrices up to about 10 x 8. Source: [G25] Theorem 2 after [SB21] for the ranks themselves.
 
-    Raises InvalidInput for a dimension outside 0..9 and for a window that is no positive integer.
+    Parameters
+    ----------
+    n, p, m : int
+        Numbers of states, outputs and faults.
+    windows : iterable of int
+        Numbers of samples s >= 1.
 
+    Returns
+    -------
+    GenericRanks
+        Each GenericWindow has the `rank` over the field Q(entries), which drops where one of the `common_factors` vanishes or all
+        `conditions` do.
+
+    Raises
+    ------
+    InvalidInput
+        For a dimension outside 0..9 and for a window that is no positive integer.
+
+    Examples
+    --------
     >>> from faultspace.exact import generic_window_ranks
     >>> (window,) = generic_window_ranks(1, 2, 1, [2]).windows
     >>> window.rank, window.common_factors

@@ -241,15 +241,32 @@ class Stratification(Shown):
 
 
 def stratify(n: int, p: int, m: int, windows: int | None = None) -> Stratification:
-    """The result divides all A (n x n), C (p x n), F (n x m), G (p x m) into strata on which the ranks of all windows are constant.
+    """Divide all A (n x n), C (p x n), F (n x m), G (p x m) into strata on which the ranks of all windows are constant.
 
-    The strata do not overlap and cover all values over every field of characteristic 0; each is given by equations and inequations in the
-    entries and comes with the rows that prove its ranks. `windows`, n + 3 by default, is the number of samples up to which identities are
-    expanded later. Source: [Si69], whose algorithm is run on indeterminates; [F75] for the indices.
+    The strata do not overlap and cover all values over every field of characteristic 0. Source: [Si69], whose algorithm is run on
+    indeterminates; [F75] for the indices.
 
-    Raises InvalidInput for a dimension outside 0..9 and windows below 1, and NonlinearCondition where a condition is linear in no entry,
-    which was not seen up to n = 2.
+    Parameters
+    ----------
+    n, p, m : int
+        Numbers of states, outputs and faults.
+    windows : int, optional
+        The number of samples up to which identities are expanded later; n + 3 by default.
 
+    Returns
+    -------
+    Stratification
+        Each stratum is given by equations and inequations in the entries and comes with the rows that prove its ranks.
+
+    Raises
+    ------
+    InvalidInput
+        For a dimension outside 0..9 and windows below 1.
+    NonlinearCondition
+        Where a condition is linear in no entry, which was not seen up to n = 2.
+
+    Examples
+    --------
     >>> from faultspace.exact import stratify
     >>> found = stratify(1, 1, 0)
     >>> [(stratum.equations, stratum.inequations, stratum.left_minimal_indices) for stratum in found.strata]

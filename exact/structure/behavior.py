@@ -177,12 +177,25 @@ def separation(inner: ResidualSystem, outer: KernelRepresentation) -> Separation
 def compare(first: System | KernelRepresentation, second: System | KernelRepresentation) -> Comparison:
     """Tell whether two systems make the same outputs from any initial state and fault, and find a word that only one makes.
 
-    The systems have p outputs each over the same field; their numbers of states and faults may differ, and inputs play no part. Where its
-    kernel representation is at hand, it stands for a system. The Comparison has `equivalent`, `first_difference` (a number of samples, or
-    None) and `word`. Source: [G25] Theorem 1, [W91].
+    Source: [G25] Theorem 1, [W91].
 
-    Raises InvalidInput when fields or numbers of outputs differ, and for anything that is no system.
+    Parameters
+    ----------
+    first, second : System or KernelRepresentation
+        With p outputs each, over the same field; their numbers of states and faults may differ, and inputs play no part.
 
+    Returns
+    -------
+    Comparison
+        `equivalent`, `first_difference` (a number of samples, or None) and `word`.
+
+    Raises
+    ------
+    InvalidInput
+        When fields or numbers of outputs differ, and for anything that is no system.
+
+    Examples
+    --------
     >>> import faultspace as fs
     >>> delayed = fs.System(A=[[0]], F=[[1]], C=[[1]], G=[[0]])
     >>> direct = fs.System(A=[[0]], F=[[0]], C=[[0]], G=[[1]])

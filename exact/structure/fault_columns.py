@@ -108,14 +108,29 @@ def from_kernel_rows(rows: Iterable[Matrix], A: Matrix, C: Matrix) -> Matrix:
 
 
 def fault_space(kernel: KernelRepresentation | System, window: int | None = None) -> FaultSpace:
-    """Return the solution space of problem (11) on `window` samples, or its limit Z, of which every equivalent F and G is made.
+    """Return the solution space of problem (11) on a window, or its limit Z, of which every equivalent F and G is made.
 
-    `kernel` is a KernelRepresentation of a system with n states and p outputs, or a System, of which it is computed; `window` is a number
-    of samples >= 0, or None for the limit, which is reached from lag + 1 samples on. A column z = [f; g] is in the space iff every kernel
-    row of degree below the window annihilates the system (A, f, C, g). Source: [G25] problem (11), Theorem 3.
+    A column z = [f; g] is in the space iff every kernel row of degree below the window annihilates the system (A, f, C, g). Source: [G25]
+    problem (11), Theorem 3.
 
-    Raises InvalidInput for a window that is no integer >= 0, and for what is no system.
+    Parameters
+    ----------
+    kernel : KernelRepresentation or System
+        Of n states and p outputs.
+    window : int, optional
+        A number of samples >= 0; None for the limit, which is reached from lag + 1 samples on.
 
+    Returns
+    -------
+    FaultSpace
+
+    Raises
+    ------
+    InvalidInput
+        For a window that is no integer >= 0, and for what is no system.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, fault_space, kernel_representation
     >>> space = fault_space(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1], [0]], [[0], [0]])))
     >>> space.F, space.G  # the second output is no fault's
@@ -131,11 +146,26 @@ def fault_space(kernel: KernelRepresentation | System, window: int | None = None
 def fault_space_dimension(kernel: KernelRepresentation | System, window: int | None = None) -> int:
     """Return the dimension of the space of problem (11), found without the space.
 
-    It is n + p less the sum of mu + 1 over the kernel rows of degree mu below the window. `kernel` is a KernelRepresentation or a System;
-    `window` is a number of samples, None for the limit. Source: [G25] problem (11), [F75] for the indices.
+    It is n + p less the sum of mu + 1 over the kernel rows of degree mu below the window. Source: [G25] problem (11), [F75] for the
+    indices.
 
-    Raises InvalidInput for a window that is no integer >= 0, and for what is no system.
+    Parameters
+    ----------
+    kernel : KernelRepresentation or System
+    window : int, optional
+        A number of samples; None for the limit.
 
+    Returns
+    -------
+    int
+
+    Raises
+    ------
+    InvalidInput
+        For a window that is no integer >= 0, and for what is no system.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, fault_space_dimension, kernel_representation
     >>> kernel = kernel_representation(ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0], [0, 0]], [[0], [1]]))
     >>> [fault_space_dimension(kernel, s) for s in (1, 2, 3, None)]
@@ -149,11 +179,26 @@ def fault_space_dimension(kernel: KernelRepresentation | System, window: int | N
 def with_pair(space: FaultSpace | KernelRepresentation | System, P: object) -> ResidualSystem:
     """Return the system (A, Fhat P, C, Ghat P) whose fault matrices are the columns of a fault space combined by P.
 
-    `space` is a FaultSpace, or a system, whose limit is taken; P is n_z x k, what `Matrix.of` takes, over the same field; `judge` says
-    whether the result is equivalent. Source: [G25] Theorem 3.
+    `judge` says whether it is equivalent. Source: [G25] Theorem 3.
 
-    Raises InvalidInput for another shape.
+    Parameters
+    ----------
+    space : FaultSpace or KernelRepresentation or System
+        Of a system the limit is taken.
+    P : what `Matrix.of` takes, shape (n_z, k)
+        Over the same field.
 
+    Returns
+    -------
+    ResidualSystem
+
+    Raises
+    ------
+    InvalidInput
+        For another shape.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, fault_space, kernel_representation, with_pair
     >>> space = fault_space(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])))
     >>> print(with_pair(space, [[3], [2]]))

@@ -11,6 +11,7 @@ Source: [SM69] (known state), [HP98], [MZ10], [K11] (unknown state); [TSH01] for
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ..algebra.matrices import Matrix, beside, column_basis, rank, right_null_space, solve_left, stacked
@@ -31,11 +32,24 @@ class AmbiguousWord:
 def delay_known_state(kernel: KernelRepresentation | System) -> int | None:
     """Return the least l with which r(0), ..., r(l) determine v(0) when x(0) is known, a number of samples; None where none do.
 
-    It is the least l with rank T_(l+1) - rank T_l = m, and exists iff the system is left-invertible; it is 0 where there is no fault.
-    `kernel` is a KernelRepresentation, or a System, of which it is computed. Source: [SM69].
+    It is the least l with rank T_(l+1) - rank T_l = m, and exists iff the system is left-invertible. Source: [SM69].
 
-    Raises InvalidInput for what is neither.
+    Parameters
+    ----------
+    kernel : KernelRepresentation or System
 
+    Returns
+    -------
+    int or None
+        0 where there is no fault.
+
+    Raises
+    ------
+    InvalidInput
+        For what is neither.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, delay_known_state, kernel_representation
     >>> late = ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], [[0]])
     >>> delay_known_state(kernel_representation(late))
@@ -56,12 +70,25 @@ def delay_known_state(kernel: KernelRepresentation | System) -> int | None:
 def delay_unknown_state(kernel: KernelRepresentation | System) -> int | None:
     """Return the least number l with which r(0), ..., r(l) determine v(0) whatever x(0) is; None where none do.
 
-    It is a number of samples, at most n, and 0 where there is no fault. A recursion modulo a prime finds it and shows that fewer samples do
-    not do; that l samples do is decided exactly. `kernel` is a KernelRepresentation, or a System, of which it is computed. Source: [HP98],
+    A recursion modulo a prime finds it and shows that fewer samples do not do; that l samples do is decided exactly. Source: [HP98],
     [MZ10], [K11].
 
-    Raises InvalidInput for what is neither.
+    Parameters
+    ----------
+    kernel : KernelRepresentation or System
 
+    Returns
+    -------
+    int or None
+        A number of samples, at most n, and 0 where there is no fault.
+
+    Raises
+    ------
+    InvalidInput
+        For what is neither.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, delay_unknown_state, kernel_representation
     >>> zero_at_2 = ResidualSystem.of([["1/2"]], [["-3/2"]], [[1]], [[1]])
     >>> no_zero = ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])
@@ -81,22 +108,34 @@ def largest_output_nulling(system: ResidualSystem) -> Matrix:
     """Return V* as a column basis (n x dim): the limit of the chain V_0 = K^n, V_(j+1) = {x : some v has C x + G v = 0, A x + F v in
     V_j}.
     """
-    subspace = Matrix.identity(system.field, system.n)
-    while True:
-        successor = column_basis(_zero_output_pairs(system, subspace).rows(range(system.n)))
-        if successor.ncols == subspace.ncols:
-            return subspace
-        subspace = successor
+    *_, last = _output_nulling(system)
+    return column_basis(last.rows(range(system.n)))
 
 
 def left_inverse(system: System, delay: int, *, known_state: bool) -> Matrix | None:
     """Return a matrix of shape m x p(delay + 1) that takes r(0), ..., r(delay) to v(0), or None where there is none.
 
-    With `known_state` the outputs are those from x(0) = 0, else they come from any initial state; `delay` is a number of samples >= 0.
     Source: [SM69] for a known state, [K11] for an unknown one.
 
-    Raises InvalidInput for what is no system, for a delay that is no integer >= 0, and for a window of more than 2^27 entries.
+    Parameters
+    ----------
+    system : System
+    delay : int
+        A number of samples >= 0.
+    known_state : bool
+        Whether the outputs are those from x(0) = 0; else they come from any initial state.
 
+    Returns
+    -------
+    Matrix or None
+
+    Raises
+    ------
+    InvalidInput
+        For what is no system, for a delay that is no integer >= 0, and for a window of more than 2^27 entries.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, left_inverse
     >>> system = ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])
     >>> left_inverse(system, 1, known_state=False), left_inverse(system, 0, known_state=False)  # v(0) = r(1) - r(0) / 2
@@ -128,6 +167,18 @@ def ambiguous_word(system: ResidualSystem, samples: int, *, known_state: bool) -
     return None
 
 
+def _output_nulling(system: ResidualSystem) -> Iterator[Matrix]:
+    """Yield the columns [x; v] with output zero that lead into V_j, for j = 0, 1, ... up to the first V_j that is V_(j+1)."""
+    subspace = Matrix.identity(system.field, system.n)
+    while True:
+        pairs = _zero_output_pairs(system, subspace)
+        yield pairs
+        successor = column_basis(pairs.rows(range(system.n)))
+        if successor.ncols == subspace.ncols:
+            return
+        subspace = successor
+
+
 def _zero_output_pairs(system: ResidualSystem, target: Matrix) -> Matrix:
     """Return the columns [x; v] of the result span {C x + G v = 0, A x + F v in the column space of `target`}."""
     moves = beside(system.A, system.F, -target)
@@ -137,13 +188,7 @@ def _zero_output_pairs(system: ResidualSystem, target: Matrix) -> Matrix:
 
 def _first_determined(system: ResidualSystem) -> int:
     """Return the least l such that v(0) is determined by r(0..l), or n + 1; by the recursion V_j, meant for prime fields."""
-    subspace = Matrix.identity(system.field, system.n)
-    for delay in range(system.n + 1):
-        pairs = _zero_output_pairs(system, subspace)
+    for delay, pairs in enumerate(_output_nulling(system)):
         if pairs.rows(range(system.n, system.n + system.m)).is_zero():
             return delay
-        successor = column_basis(pairs.rows(range(system.n)))
-        if successor.ncols == subspace.ncols:
-            break
-        subspace = successor
     return system.n + 1

@@ -169,11 +169,27 @@ def annihilates(row: KernelRow, system: ResidualSystem) -> bool:
 def kernel_representation(system: System) -> KernelRepresentation:
     """Return the minimal kernel representation of the output behaviour of a system, for every system over every field.
 
-    `system` is a System of either kind with p outputs; B and D play no part. Over Q and Q(a) the shape of the rows comes from a prime,
-    their coefficients from one exact solve by p-adic lifting [D82], and an exact check has the last word. Source: [F75], [W91].
+    Over Q and Q(a) the shape of the rows comes from a prime, their coefficients from one exact solve by p-adic lifting [D82], and an exact
+    check has the last word. Source: [F75], [W91].
 
-    Raises InvalidInput for what is no system, and ArithmeticError if no prime fits, which the bound on misleading primes excludes.
+    Parameters
+    ----------
+    system : System
+        Of p outputs; B and D play no part.
 
+    Returns
+    -------
+    KernelRepresentation
+
+    Raises
+    ------
+    InvalidInput
+        For what is no system.
+    ArithmeticError
+        If no prime fits, which the bound on misleading primes excludes.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, kernel_representation
     >>> kernel_representation(ResidualSystem.of([["1/2"]], [[]], [[1]], [[]], m=0)).rows[0].coefficients  # 2 r(k+1) = r(k)
     [[-1], [2]]

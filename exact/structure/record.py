@@ -129,14 +129,29 @@ class Structure(Shown):
 def analyze(system: System, *, on_progress: Progress | None = None) -> Structure:
     """Compute all that is known exactly about a system: its indices, zeros, delays, window ranks and fault space.
 
-    `system` is a ResidualSystem or a FaultySystem over any field, with n states, m faults and p outputs, of any size, observable or not,
-    left-invertible or not; B and D play no part. The Structure has `kernel.lag` (a number of samples), `kernel.left_minimal_indices`,
-    `invariant_zero_polynomial` (ascending coefficients), `infinite_zero_orders`, `delay_known_state` and `delay_unknown_state` (samples, or
-    None where there is no inverse) and `fault_space`, whose basis is n_z x (n + p) with rows [f' g']. `on_progress` hears how many of the
-    points are done from which the zeros are interpolated, which is most of the work. Source: [G25]; [W91] for the lag.
+    Source: [G25]; [W91] for the lag.
 
-    Raises InvalidInput for anything that is no system.
+    Parameters
+    ----------
+    system : System
+        Over any field, with n states, m faults and p outputs, observable or not, left-invertible or not; B and D play no part.
+    on_progress : callable, optional
+        It hears how many of the points are done from which the zeros are interpolated, which is most of the work.
 
+    Returns
+    -------
+    Structure
+        `kernel.lag` (a number of samples), `kernel.left_minimal_indices`, `invariant_zero_polynomial` (ascending coefficients),
+        `infinite_zero_orders`, `delay_known_state` and `delay_unknown_state` (samples, or None where there is no inverse) and
+        `fault_space`, whose basis is n_z x (n + p) with rows [f' g'].
+
+    Raises
+    ------
+    InvalidInput
+        For anything that is no system.
+
+    Examples
+    --------
     >>> import faultspace as fs
     >>> found = fs.analyze(fs.System(A=[[0, 1], [0, 0]], F=[[0], [1]], C=[[1, 0], [0, 0]], G=[[0], [1]]))
     >>> found

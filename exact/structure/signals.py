@@ -67,13 +67,28 @@ class Trajectory(Shown):
 
 
 def simulate(system: System, x0: object, v: object) -> Trajectory:
-    """Return the exact trajectory of a residual system from x0 (n x 1) under the fault v (N x m, time down the rows).
+    """Return the exact trajectory of a residual system from an initial state under a fault.
 
-    x0 and v are of type Matrix over the field of the system, or nested lists; of a system with inputs it is the trajectory for u = 0.
-    Source: [G25] section IV.
+    Of a system with inputs it is the trajectory for u = 0. Source: [G25] section IV.
 
-    Raises InvalidInput when a shape or field does not fit, and for what is no system.
+    Parameters
+    ----------
+    system : System
+    x0 : Matrix or nested lists, shape (n, 1)
+    v : Matrix or nested lists, shape (N, m)
+        Time runs down the rows; both are over the field of the system.
 
+    Returns
+    -------
+    Trajectory
+
+    Raises
+    ------
+    InvalidInput
+        When a shape or field does not fit, and for what is no system.
+
+    Examples
+    --------
     >>> from faultspace.exact import Matrix, ResidualSystem, simulate
     >>> system = ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])
     >>> simulate(system, x0=Matrix.of([[0]]), v=Matrix.of([[1], [0], [0]])).residuals
@@ -125,13 +140,30 @@ def persistency(signal: Matrix) -> int:
 def data_fault_space(residuals: Matrix, A: Matrix, C: Matrix, s: int) -> Matrix:
     """Return the fault space as data tell it: problem (11) with the left null space of their Hankel matrix for kernel rows.
 
-    `residuals` is N x p (time down the rows), A is n x n, C is p x n, all of one field, and s is a number of samples. The rows [f' g'] of
-    the result, n_z x (n + p), are in reduced row echelon form. Where [X; V_s] has full row rank they are those of `fault_space` at window
-    s; a fault that excites less leaves more null rows, and then a smaller space. Source: [G25] problem (11) and section IV, [WRMM05] for
-    excitation.
+    Where [X; V_s] has full row rank the rows are those of `fault_space` at window s; a fault that excites less leaves more null rows, and
+    then a smaller space. Source: [G25] problem (11) and section IV, [WRMM05] for excitation.
 
-    Nested lists are taken over Q. Raises InvalidInput for s that is no integer >= 0, and if there are fewer than s samples.
+    Parameters
+    ----------
+    residuals : Matrix, shape (N, p)
+        Time runs down the rows. Nested lists are taken over Q.
+    A, C : Matrix, shapes (n, n) and (p, n)
+        Over the same field.
+    s : int
+        A number of samples.
 
+    Returns
+    -------
+    Matrix, shape (n_z, n + p)
+        Rows [f' g'] in reduced row echelon form.
+
+    Raises
+    ------
+    InvalidInput
+        For s that is no integer >= 0, and if there are fewer than s samples.
+
+    Examples
+    --------
     >>> from faultspace.exact import Matrix, ResidualSystem, data_fault_space, simulate
     >>> system = ResidualSystem.of([["1/2"]], [[1]], [[1], [0]], [[0], [0]])
     >>> data = simulate(system, x0=Matrix.of([[1]]), v=Matrix.of([[1], [0], [0], [1], [1], [0], [1]]))

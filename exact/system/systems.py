@@ -303,14 +303,28 @@ def residual_of(given: object, where: str = "system") -> ResidualSystem:
 
 
 def read_system(data: object, *, where: str = "system") -> System:
-    """Return the System that the dict of an exact file holds; `where` is how messages call it.
+    """Return the System that the dict of an exact file holds.
 
-    The dict has "A" (n x n), "F" (n x m), "C" (p x n), "G" (p x m), each a list of rows, and may have "B" and "D" together, "field", and
-    the sizes "n", "m", "p" and "nu", which are required where one of them is zero. Entries are integers and rational strings, over Q(a)
-    also lists of such. n + m + p is at most 512.
+    Parameters
+    ----------
+    data : dict
+        "A" (n x n), "F" (n x m), "C" (p x n), "G" (p x m), each a list of rows; it may have "B" and "D" together, "field", and the
+        sizes "n", "m", "p" and "nu", which are required where one of them is zero. Entries are integers and rational strings, over Q(a)
+        also lists of such. n + m + p is at most 512.
+    where : str
+        How messages call it.
 
-    Raises InvalidInput with one line that names the place and says what was got and what is needed.
+    Returns
+    -------
+    System
 
+    Raises
+    ------
+    InvalidInput
+        With one line that names the place and says what was got and what is needed.
+
+    Examples
+    --------
     >>> from faultspace.exact import read_system
     >>> print(read_system({"A": [["1/2"]], "F": [[1]], "C": [[1]], "G": [[0]]}))
     A=[[1/2]], F=[[1]], C=[[1]], G=[[0]]
@@ -358,11 +372,25 @@ def _read_residual(data: Mapping[str, Any], field: Field) -> ResidualSystem:
 def from_float_exactly(value: float, *, where: str = "entry") -> Fraction:
     """Return the dyadic rational that a finite float is, of type Fraction: the only way in for floats.
 
-    A float that was measured or rounded has no exact zeros, so that an answer about the result is one about those digits; `where` is how
-    messages call the number.
+    A float that was measured or rounded has no exact zeros, so that an answer about the result is one about those digits.
 
-    Raises InvalidInput for NaN, infinities and anything that is no number.
+    Parameters
+    ----------
+    value : float
+    where : str
+        How messages call the number.
 
+    Returns
+    -------
+    Fraction
+
+    Raises
+    ------
+    InvalidInput
+        For NaN, infinities and anything that is no number.
+
+    Examples
+    --------
     >>> from faultspace.exact import from_float_exactly
     >>> from_float_exactly(0.5), from_float_exactly(0.1)
     (Fraction(1, 2), Fraction(3602879701896397, 36028797018963968))

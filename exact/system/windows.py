@@ -14,12 +14,28 @@ from .systems import System, residual_of
 
 
 def observability_matrix(system: System, s: int) -> Matrix:
-    """Return O_s, of shape p s x n: the s block rows C, C A, ..., C A^(s-1), which take x(0) to the outputs of s samples.
+    """Return O_s, the s block rows C, C A, ..., C A^(s-1), which take x(0) to the outputs of s samples.
 
-    `system` is a System of either kind with n states and p outputs. Source: [G25] Theorem 2 after [SB21]; [K80].
+    Source: [G25] Theorem 2 after [SB21]; [K80].
 
-    Raises InvalidInput for what is no system, for s that is no integer >= 0, and for a window of more than 2^27 entries. O_0 has no rows.
+    Parameters
+    ----------
+    system : System
+        Of n states and p outputs.
+    s : int
+        A number of samples >= 0.
 
+    Returns
+    -------
+    Matrix, shape (p s, n)
+
+    Raises
+    ------
+    InvalidInput
+        For what is no system, for s that is no integer >= 0, and for a window of more than 2^27 entries.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, observability_matrix
     >>> observability_matrix(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]), 3)
     [[1], [1/2], [1/4]]
@@ -35,12 +51,28 @@ def observability_matrix(system: System, s: int) -> Matrix:
 
 
 def toeplitz_matrix(system: System, s: int) -> Matrix:
-    """Return T_s, of shape p s x m s: G on the diagonal and C A^(i-j-1) F below, the response to the fault from rest.
+    """Return T_s, G on the diagonal and C A^(i-j-1) F below, the response to the fault from rest.
 
-    `system` is a System of either kind with m faults and p outputs. Source: [G25] Theorem 2 after [SB21].
+    Source: [G25] Theorem 2 after [SB21].
 
-    Raises InvalidInput for what is no system, for s that is no integer >= 0, and for a window of more than 2^27 entries. T_0 is empty.
+    Parameters
+    ----------
+    system : System
+        Of m faults and p outputs.
+    s : int
+        A number of samples >= 0.
 
+    Returns
+    -------
+    Matrix, shape (p s, m s)
+
+    Raises
+    ------
+    InvalidInput
+        For what is no system, for s that is no integer >= 0, and for a window of more than 2^27 entries.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, toeplitz_matrix
     >>> toeplitz_matrix(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]), 3)
     [[0, 0, 0], [1, 0, 0], [1/2, 1, 0]]
@@ -58,13 +90,28 @@ def toeplitz_matrix(system: System, s: int) -> Matrix:
 
 
 def window_matrix(system: System, s: int) -> Matrix:
-    """Return [O_s T_s], of shape p s x (n + m s): its column space is the set of outputs that s samples can show.
+    """Return [O_s T_s], whose column space is the set of outputs that s samples can show.
 
-    It takes (x(0), v(0), ..., v(s-1)) to (r(0), ..., r(s-1)). `system` is a System; for ranks at many s ask
-    `kernel_representation(system).rank`, which builds no such matrix. Source: [G25] Theorem 2 after [SB21].
+    It takes (x(0), v(0), ..., v(s-1)) to (r(0), ..., r(s-1)); for ranks at many s ask `kernel_representation(system).rank`, which builds no
+    such matrix. Source: [G25] Theorem 2 after [SB21].
 
-    Raises InvalidInput for what is no system, for s that is no integer >= 0, and for a window of more than 2^27 entries.
+    Parameters
+    ----------
+    system : System
+    s : int
+        A number of samples >= 0.
 
+    Returns
+    -------
+    Matrix, shape (p s, n + m s)
+
+    Raises
+    ------
+    InvalidInput
+        For what is no system, for s that is no integer >= 0, and for a window of more than 2^27 entries.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, rank, window_matrix
     >>> built = window_matrix(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]), 2)
     >>> built, rank(built)
@@ -74,12 +121,26 @@ def window_matrix(system: System, s: int) -> Matrix:
 
 
 def reachability_matrix(system: System) -> Matrix:
-    """Return [F, A F, ..., A^(n-1) F], of shape n x n m: its column space is what the fault can reach from rest.
+    """Return [F, A F, ..., A^(n-1) F], whose column space is what the fault can reach from rest.
 
-    `system` is a System of either kind with n states and m faults; (A, F) is controllable iff the rank is n. Source: [K80].
+    (A, F) is controllable iff the rank is n. Source: [K80].
 
-    Raises InvalidInput for what is no system.
+    Parameters
+    ----------
+    system : System
+        Of n states and m faults.
 
+    Returns
+    -------
+    Matrix, shape (n, n m)
+
+    Raises
+    ------
+    InvalidInput
+        For what is no system.
+
+    Examples
+    --------
     >>> from faultspace.exact import ResidualSystem, reachability_matrix
     >>> reachability_matrix(ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], [[0]]))
     [[0, 1], [1, 0]]

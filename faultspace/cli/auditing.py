@@ -55,7 +55,7 @@ class Asked:
 
     @property
     def limits(self) -> Limits:
-        """These are the limits of a check."""
+        """The limits of a check."""
         return Limits(self.seconds, int(self.gibibytes * 2**30), self.environment)
 
 

@@ -27,7 +27,7 @@ STYLES |= dict.fromkeys(("verified under an assumption", "not covered", "undecid
 
 
 def run(names: Sequence[str], *, systems: Sequence[str], rocq: bool = False, as_json: bool) -> int:
-    """Checks one file after the other; the exit code of the worst. As JSON: an array with one object a file, as the checker writes it.
+    """Check one file after the other; the exit code of the worst. As JSON: an array with one object a file, as the checker writes it.
 
     What does not parse is told on standard error alone, and in the JSON. With `rocq`, exit 1 also where Rocq accepts not all of them, and
     InvalidInput where there is no Rocq.

@@ -8,24 +8,20 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rich.console import Console
 from rich.text import Text
 
 from ..base.errors import InvalidInput, in_file, quote_path
 from ..base.messages import say
 from ..base.progress import evenly, working
-from ..base.sheets import NAME_WIDTH, counted, line
-from ..proofs.brought.answers import ClaimAnswers
 from ..proofs.brought.case_files import is_choice, is_pair, is_record, read_case
 from ..proofs.brought.claim_files import read_claims
 from ..proofs.brought.claiming import MOST, decide_claims, explain
 from ..proofs.brought.claims import Answered, Claim, nearest
 from ..proofs.quantities.cases import case_json
-from ..proofs.trust.structure_certificates import sha256
-from .conjecturing import run_sharpen
+from .conjecturing import print_shown, run_sharpen, write_certificates
 from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, NOT_AS_EXPECTED
-from .reading_files import prepare_folder, read_json, read_text, system_in, write_json
+from .reading_files import prepare_folder, read_json, read_text, system_in
 
 STYLES = {Answered.REFUTED: "red", Answered.NOT_REFUTED: "green", Answered.PROVED: "green", Answered.VACUOUS: "yellow"}
 
@@ -65,12 +61,11 @@ def run(
     if as_json:
         print_json(found.to_json())
     else:
-        _print(answers(), found)
+        console = answers()
+        for one in sorted(found.answers, key=lambda answer: answer.as_expected):  # stable: what is not as expected is seen first
+            print_shown(console, one, f"bold {STYLES[one.verdict]}")
     if out is not None:
-        names = {f"{one['kind']}-{sha256(one)[:12]}.json": one for one in found.certificates}
-        for file, certificate in names.items():
-            write_json(out / file, certificate)
-        say(f"{quote_path(str(out))} has {counted(len(names), 'certificate')}; check each with: faultspace check FILE")
+        write_certificates(out, found.certificates)
     for one in found.answers:
         if not one.as_expected:
             say(f"{one.id} over {one.field}: got {one.verdict}, expected {one.expected}")
@@ -90,14 +85,6 @@ def _chosen(claims: list[Claim], only: list[str], option: str) -> list[Claim]:
         if id not in names:
             raise InvalidInput(f"{option}: got {id}, which is no claim of the file; {nearest(id, names)}")
     return [one for one in claims if not only or one.id in only]
-
-
-def _print(console: Console, found: ClaimAnswers) -> None:
-    for one in sorted(found.answers, key=lambda answer: answer.as_expected):  # stable: what is not as expected is seen first
-        paragraph(console, Text(one.title, style=f"bold {STYLES[one.verdict]}"))
-        for label, value in one.sheet():
-            paragraph(console, value, line(label, " ")[:-1] + " " * (len(label) >= NAME_WIDTH))
-        console.print()
 
 
 def _explain(claims: list[Claim], on: str, *, as_json: bool) -> int:

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from rich.console import Console
 from rich.text import Text
 
 from ..base.errors import InvalidInput, in_file, quote_path, shorten
@@ -62,7 +63,7 @@ def run(
     else:
         _print([found])
     if out is not None:
-        _write(out, found.certificates)
+        write_certificates(out, found.certificates)
     return ANSWERED
 
 
@@ -80,20 +81,26 @@ def run_sharpen(name: str, claims: Sequence[Claim], *, most: int | None, jobs: i
     else:
         _print(found)
     if out is not None:
-        _write(out, [certificate for one in found for certificate in one.certificates])
+        write_certificates(out, [certificate for one in found for certificate in one.certificates])
     return ANSWERED
 
 
 def _print(found: Sequence[Shown]) -> None:
     console = answers()
     for one in found:
-        paragraph(console, Text(one.title, style="bold"))
-        for label, value in one.sheet():
-            paragraph(console, value, line(label, " ")[:-1] + " " * (len(label) >= NAME_WIDTH))
-        console.print()
+        print_shown(console, one, "bold")
 
 
-def _write(out: Path, certificates: Iterable[Certificate]) -> None:
+def print_shown(console: Console, one: Shown, style: str) -> None:
+    """Print the title of a record, a line for each pair of its sheet, and an empty line."""
+    paragraph(console, Text(one.title, style=style))
+    for label, value in one.sheet():
+        paragraph(console, value, line(label, " ")[:-1] + " " * (len(label) >= NAME_WIDTH))
+    console.print()
+
+
+def write_certificates(out: Path, certificates: Iterable[Certificate]) -> None:
+    """Write them into the folder, each named by its kind and SHA-256, and say how many there are."""
     names = {f"{one['kind']}-{sha256(one)[:12]}.json": one for one in certificates}
     for file, certificate in names.items():
         write_json(out / file, certificate)

@@ -22,7 +22,7 @@ from .failures import ANSWERED, BAD_INPUT
 
 
 class Readable(Protocol):
-    """This is a record that people and programs can read."""
+    """A record that people and programs can read."""
 
     def sheet(self) -> Sheet: ...
 

@@ -32,7 +32,7 @@ from .reading_files import prepare_folder
 
 @dataclass(frozen=True)
 class Known:
-    """This is what the user knows of the record; None stands for what is to be found."""
+    """What the user knows of the record; None stands for what is to be found."""
 
     order: int | None
     block_rows: int | None

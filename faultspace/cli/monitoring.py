@@ -84,7 +84,7 @@ def run(model: str, watching: Watching, *, inputs: Sequence[str], outputs: Seque
 
 
 class _Watch:
-    """This is a watch from its first line to its last.
+    """A watch from its first line to its last.
 
     A signal may come anywhere: what belongs together is done while it is `held`. So a monitor that is saved has seen each sample whole or
     not at all, stands where `_place` says, and no alarm is told twice or never.
@@ -188,7 +188,7 @@ class _Watch:
 
 @dataclass(frozen=True)
 class _Ready:
-    """This is what the model's file gives: the names of its channels, and a monitor, or the model to make one by a healthy record."""
+    """What the model's file gives: the names of its channels, and a monitor, or the model to make one by a healthy record."""
 
     inputs: list[str]
     outputs: list[str]

@@ -30,7 +30,7 @@ class Effort(StrEnum):
 
 
 class Expected(StrEnum):
-    """These are the answers that `compare` can be made to expect."""
+    """The answers that `compare` can be made to expect."""
 
     equivalent = "equivalent"
     different = "different"

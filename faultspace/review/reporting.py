@@ -79,15 +79,33 @@ def report(
 ) -> Page:
     """Make the page that a reviewer reads: one file that holds everything and fetches nothing.
 
-    `run` is a folder that `faultspace verify --out` has written, with the answers of `faultspace claim example:literature --json` in
-    literature.json or without; None has both made first, with `effort` "quick" or "full" and `jobs`, the number of processes (-1: one
-    for each core), and kept in the folder `run` of `out`, which takes minutes. What stands beside the verdicts is computed in half a
-    minute: the example, the limits, a small study, the bound, negative controls. The page is report.html in the folder `out`. It needs the
-    extra "report". The claims are those of [G25].
+    What stands beside the verdicts is computed in half a minute: the example, the limits, a small study, the bound, negative controls. It
+    needs the extra "report". The claims are those of [G25].
 
-    Raises InvalidInput where Jinja2 is missing, for a folder that no run has written, for one that cannot be written into, and for an
-    unknown effort.
+    Parameters
+    ----------
+    run : path, optional
+        A folder that `faultspace verify --out` has written, with the answers of `faultspace claim example:literature --json` in
+        literature.json or without; None has both made first and kept in the folder `run` of `out`, which takes minutes.
+    out : path
+        The folder in which the page is report.html.
+    effort : str
+        "quick" or "full", of a run that is made.
+    jobs : int
+        The number of processes, -1 for one for each core.
+    on_progress : callable, optional
 
+    Returns
+    -------
+    Page
+
+    Raises
+    ------
+    InvalidInput
+        Where Jinja2 is missing, for a folder that no run has written, for one that cannot be written into, and for an unknown effort.
+
+    Examples
+    --------
     >>> import faultspace as fs
     >>> fs.report("no-such-folder")
     Traceback (most recent call last):

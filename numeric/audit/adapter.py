@@ -32,7 +32,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeGuard
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData, shorten
@@ -128,7 +128,7 @@ def offered(implementation: object) -> dict[str, Function]:
     return found
 
 
-def known(offered: object) -> bool:
+def known(offered: object) -> TypeGuard[list[str]]:
     """Return whether this is a list of some of FUNCTIONS: of a process that says that it offers nothing, no check would fail."""
     return isinstance(offered, list) and bool(offered) and all(one in FUNCTIONS for one in offered)
 

@@ -64,7 +64,7 @@ MAPPED = 1 << 20  # bytes of an array above which it is mapped, not read
 
 @dataclass(frozen=True)
 class _Opened:
-    """This is what a reader found: the channels of each selector, whether an output is known to float32 only, rows (any, sum of widths) in
+    """What a reader found: the channels of each selector, whether an output is known to float32 only, rows (any, sum of widths) in
     time's order, and what a time column says of them."""
 
     widths: tuple[int, ...]

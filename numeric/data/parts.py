@@ -79,7 +79,7 @@ def _counted_through(paths: Sequence[Path]) -> None:
 
 
 class ParquetParts:
-    """These are one Parquet file, or several with the same columns, one after the other. Raises InvalidInput where they cannot be read, or
+    """One Parquet file, or several with the same columns, one after the other. Raises InvalidInput where they cannot be read, or
     the columns `names` are not there, hold no numbers, or are not the same in all."""
 
     def __init__(self, paths: Sequence[Path], names: Sequence[str]) -> None:

@@ -92,7 +92,7 @@ def stored(rows: Array) -> SampleStore:
 
 
 class Stored(Protocol):
-    """This is a result that keeps its samples in a `store`, as the residual of a model does."""
+    """A result that keeps its samples in a `store`, as the residual of a model does."""
 
     @property
     def store(self) -> SampleStore:
@@ -107,7 +107,7 @@ def in_memory(rows: ArrayLike | SampleStore | Stored) -> Any:
 
 @dataclass(frozen=True)
 class Channels:
-    """This is what is known of every channel, inputs before outputs: least and greatest value, mean and standard deviation, each (k,)."""
+    """What is known of every channel, inputs before outputs: least and greatest value, mean and standard deviation, each (k,)."""
 
     least: Array
     greatest: Array

@@ -106,7 +106,7 @@ def _range(text: str) -> slice:
 
 
 class Missing(InvalidInput):
-    """This is the refusal of a name that is not among those that are `there`, which are `columns` or whole arrays."""
+    """The refusal of a name that is not among those that are `there`, which are `columns` or whole arrays."""
 
     def __init__(self, message: str, there: Sequence[str], *, columns: bool) -> None:
         super().__init__(message)

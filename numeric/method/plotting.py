@@ -82,7 +82,7 @@ def plot_conditions(values: ArrayLike, equations: int, *, others: str, ax: Any =
 
 
 class Level(Protocol):
-    """This is what the kernel-row test saw on so many mixed outputs: levels in nats over the mixtures tried."""
+    """What the kernel-row test saw on so many mixed outputs: levels in nats over the mixtures tried."""
 
     @property
     def outputs(self) -> int:
@@ -102,7 +102,7 @@ class Level(Protocol):
 
 
 class WindowRanks(Protocol):
-    """This is a count of faults by windows, as `FaultDimension` is: n_v, regime and what belongs to each window."""
+    """A count of faults by windows, as `FaultDimension` is: n_v, regime and what belongs to each window."""
 
     @property
     def n_v(self) -> int | None:

@@ -19,7 +19,7 @@ from .steps.findings import Answer
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Identification(Answer):
-    """This is what `identify` found. A field is None where it was not asked for, because of what came before.
+    """What `identify` found. A field is None where it was not asked for, because of what came before.
 
     model            the MoespModel: A (n, n), B (n, n_u), C (p, n), D (p, n_u), x0 (n,), residual_covariance (p, p); None where the order
                      stays open, for which singular_values tell the choices
@@ -87,7 +87,7 @@ class Identification(Answer):
 
     @one_thread()
     def plot(self, ax: Any = None) -> Any:
-        """Draws the fault signal, or measured and simulated outputs where there is none, into the matplotlib axes `ax` (new ones where None
+        """Draw the fault signal, or measured and simulated outputs where there is none, into the matplotlib axes `ax` (new ones where None
         are given) and returns them. Raises InvalidData where there is no model, and ModuleNotFoundError without matplotlib."""
         from .report.result_pictures import main_picture
 
@@ -135,7 +135,7 @@ class Identification(Answer):
 
     @one_thread()
     def save(self, folder: str | os.PathLike[str], data: str = "arrays") -> list[str]:
-        """Writes model, residual, fault space, fault signal, summary and pictures into `folder`, which is made where it is missing; their
+        """Write model, residual, fault space, fault signal, summary and pictures into `folder`, which is made where it is missing; their
         names.
 
         `data` is the title of the summary, which says where the record is from: "arrays" unless it is named. The summary also tells what

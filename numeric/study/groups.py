@@ -65,7 +65,7 @@ class Group:
 
 @dataclass(frozen=True, repr=False)
 class StudyCases:
-    """These are the cases of a study in order, with its plan, and those that could not be done; `seconds` is the time taken."""
+    """The cases of a study in order, with its plan, and those that could not be done; `seconds` is the time taken."""
 
     plan: Plan
     seed: int

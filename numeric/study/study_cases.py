@@ -51,7 +51,7 @@ PAPER, LIKELIHOOD, LAWS = "paper", "likelihood", "laws"
 
 @dataclass(frozen=True)
 class Errors:
-    """These are the errors of one estimate, as fractions.
+    """The errors of one estimate, as fractions.
 
     `published` takes the angles from [F; G] over n_v pi/2, `containment` the same over sqrt(n_v) pi/2, and `two_sided` is the distance to
     the whole true fault space, dimensions included, over its maximum.
@@ -64,7 +64,7 @@ class Errors:
 
 @dataclass(frozen=True)
 class Estimate:
-    """This is what one estimator made of a case: dimension and errors, or the reason why there are none."""
+    """What one estimator made of a case: dimension and errors, or the reason why there are none."""
 
     n_z: int | None
     errors: Errors | None
@@ -132,7 +132,7 @@ def corrected_identified_case(index: int, seed: np.random.SeedSequence, samples:
 
 @dataclass(frozen=True)
 class Truth:
-    """This is what the published estimator is told: the rank of R_s and n_z; it is `vacuous` where the rank leaves no null row."""
+    """What the published estimator is told: the rank of R_s and n_z; it is `vacuous` where the rank leaves no null row."""
 
     rank: int
     n_z: int

@@ -12,7 +12,8 @@ counts for nothing. Checked again: the quantity at the stored point, the exact d
 the signs at both ends of a bracket. Floats of another machine may differ in the last digits: values are compared to a hundredth.
 
 What the file tells of a search was done when the file was made: a run says "on record" of it. It looks whether the file has the SHA-256
-that it tells, and searches again from their seeds what takes at most AGAIN seconds, of which it tells what it did itself.
+that it tells, and searches again from their seeds, of which it tells what it did itself: what takes at most AGAIN seconds, and of the
+others, where nothing was found, the first AGAIN seconds.
 """
 
 from __future__ import annotations
@@ -58,7 +59,7 @@ def run_attacks(
 
 
 def write(records: Sequence[AttackRecord], path: Path) -> None:
-    """Writes the file, in the order of the catalogue."""
+    """Write the file, in the order of the catalogue."""
     order = {attack.id: place for place, attack in enumerate(catalogue())}
     kept = sorted((record for record in records if record["attack"] in order), key=lambda record: order[record["attack"]])
     file = {"format": FORMAT, "sha256": _digest_of(kept), "attacks": kept}
@@ -67,7 +68,7 @@ def write(records: Sequence[AttackRecord], path: Path) -> None:
 
 @cache
 def stored() -> tuple[AttackRecord, ...]:
-    """Returns the records of the package's file; each has under "whole" whether the file has the SHA-256 that it tells."""
+    """Return the records of the package's file; each has under "whole" whether the file has the SHA-256 that it tells."""
     file = json.loads(resources.files(__package__).joinpath(FILE).read_text(encoding="utf-8"))
     whole = file.get("sha256") == _digest_of(file["attacks"])
     return tuple({**record, "whole": whole} for record in file["attacks"])
@@ -89,24 +90,27 @@ def stale(attack: Attack, records: Sequence[AttackRecord]) -> bool:
 
 
 def checked_again(target: str, records: Sequence[AttackRecord] | None = None) -> tuple[Attacked, ...]:
-    """Returns the records on a target (None: of the package's file), each checked again."""
+    """Return the records on a target (None: of the package's file), each checked again."""
     known = {attack.id: attack for attack in attacks_on(target)}
     here = [record for record in (stored() if records is None else records) if record["target"] == target]
     return tuple(_attacked(record, known.get(record["attack"])) for record in here)
 
 
 def certified(record: AttackRecord) -> AttackRecord:
-    """Returns the record with the certificates of its counterexample as they are made now, which is decided again at the stored point; the
-    record as it is where it has none, where its attack is gone, or where the point refutes nothing, which `checked_again` then says."""
+    """Return the record with words and certificates of its counterexample as they are made now, which is decided again at the stored
+    point; the record as it is where it has none, where its attack is gone, or where the point refutes nothing, which `checked_again` then
+    says."""
     attack, witness = next((one for one in catalogue() if one.id == record["attack"]), None), record["witness"]
     if attack is None or witness is None:
         return record
     found = attack.decide(tuple(Fraction(x) for x in witness["point"]))
-    return record if found is None else {**record, "witness": {**witness, "certificates": _named(found.certificates)}}
+    if found is None:
+        return record
+    return {**record, "witness": {**witness, "words": found.words, "certificates": _named(found.certificates)}}
 
 
 def words_of(record: AttackRecord) -> str:
-    """Tells a record in a sentence or two."""
+    """Tell a record in a sentence or two."""
     tried = f"{record['starts']} starts, {record['evaluations']} values, {record['decided']} points decided exactly, "
     tried += f"{record['seconds']:.0f} s of one processor, {record['date']}"
     if record["outcome"] == COUNTEREXAMPLE:
@@ -116,8 +120,8 @@ def words_of(record: AttackRecord) -> str:
             f"A counterexample exists in {record['family']} ({tried}): {record['measured']} has opposite signs at two exact points, "
             f"{' and '.join(str(tuple(point)).replace(chr(39), '') for point in record['bracket'])}, and vanishes between them"
         )
-    reach = {Aim.NONZERO: "the largest value is", Aim.STRATUM: "exact points of the zero set were decided; least value of"}
-    sought = reach.get(Aim(record["aim"]), "the least value is")
+    reach: dict[str, str] = {Aim.NONZERO: "the largest value is", Aim.STRATUM: "exact points of the zero set were decided; least value of"}
+    sought = reach.get(record["aim"], "the least value is")
     near = f"{sought} {record['nearest']:.1e} ({record['measured']})"
     if record["aim"] == Aim.STRATUM:
         near = f"decided on the zero set of {record['measured']}"
@@ -125,7 +129,7 @@ def words_of(record: AttackRecord) -> str:
 
 
 def _run(place: int, seconds: float, seed: int) -> AttackRecord:
-    """Runs the attack at this place of the catalogue."""
+    """Run the attack at this place of the catalogue."""
     return _record(pursue(catalogue()[place], seconds=seconds, seed=seed), seed)
 
 
@@ -146,7 +150,7 @@ def _record(trial: Trial, seed: int) -> AttackRecord:
         "date": datetime.now(UTC).date().isoformat(),
         "nearest": trial.nearest,
         "point": list(trial.point),
-        "outcome": COUNTEREXAMPLE if witness else CHANGE if bracket else NONE,
+        "outcome": _outcome(witness, bracket),
         "witness": None
         if witness is None
         else {
@@ -156,6 +160,10 @@ def _record(trial: Trial, seed: int) -> AttackRecord:
         },
         "bracket": None if bracket is None else [[str(x) for x in point] for point in bracket],
     }
+
+
+def _outcome(witness: object, bracket: object) -> str:
+    return COUNTEREXAMPLE if witness else CHANGE if bracket else NONE
 
 
 def _named(certificates: Sequence[Certificate]) -> list[dict[str, str]]:
@@ -168,6 +176,8 @@ def _digest(target: str) -> str | None:
 
 
 def _attacked(record: AttackRecord, attack: Attack | None) -> Attacked:
+    if record["outcome"] != _outcome(record["witness"], record["bracket"]):
+        return Attacked(record["attack"], "its record is not told", False, "not found again: its outcome is not that of the points stored")
     words = words_of(record) if "whole" not in record else f"On record: {words_of(record)}"
     if not record.get("whole", True):
         return Attacked(record["attack"], words, False, f"not found again: {FILE} is not the file whose SHA-256 it tells")
@@ -180,36 +190,50 @@ def _attacked(record: AttackRecord, attack: Attack | None) -> Attacked:
     if trial is not None:
         against = trial.witness is not None or trial.bracket is not None
         found = "a counterexample" if against else "no counterexample"
-        words += f"; the same search now: {trial.evaluations} values, {trial.decided} points decided exactly, {found}"
+        did = f"the same search now: {trial.evaluations} values, {trial.decided} points decided exactly"
+        words += f"; {'the beginning of it now' if _long(record) else did}, {found}"
         trouble = "not found again: the search found nothing, and finds something now" if against else None
     return Attacked(record["attack"], words, refuting(record) and trouble is None, trouble)
 
 
 def _searched_again(record: AttackRecord, attack: Attack) -> Trial | None:
-    """Return what a search on record comes to now, from its seed; None where it is not one of those that are done again."""
-    if "whole" not in record or refuting(record) or record["seconds"] > AGAIN:
+    """Return what a search on record comes to now, from its seed: that it took long is on record, too, so its beginning is done again."""
+    if "whole" not in record or refuting(record):
         return None
-    return pursue(attack, seconds=PATIENCE * AGAIN, seed=record["seed"])
+    return pursue(attack, seconds=AGAIN if _long(record) else PATIENCE * AGAIN, seed=record["seed"])
+
+
+def _long(record: AttackRecord) -> bool:
+    return bool(record["seconds"] > AGAIN)
 
 
 def _again(record: AttackRecord, attack: Attack) -> str | None:
     """Return what of a record is not found again; None where all of it is."""
+    told = {"family": attack.family.words, "aim": attack.aim, "measured": attack.measured}
+    if other := [name for name, words in told.items() if record[name] != words]:
+        return f"not found again: another {other[0]} was stored than the attack has"
     if record["starts"] != attack.starts:
         return f"not found again: the attack has {attack.starts} starts, and {record['starts']} were stored"
-    if record["point"]:
-        value, before = value_at(attack, record["point"]), record["nearest"]
-        if abs(value - before) > 0.01 * max(value, before) and max(value, before) > NOTHING:
-            return f"not found again: the value at the stored point is {value:.3e}, and {before:.3e} was stored"
+    if len(record["point"]) != len(attack.family.box):
+        return f"not found again: the attack has {len(attack.family.box)} parameters, and the stored point {len(record['point'])}"
+    value, before = value_at(attack, record["point"]), record["nearest"]
+    # Written so that what is no number fails.
+    if not abs(value - before) <= 0.01 * max(value, before) and not max(before, value) <= NOTHING:
+        return f"not found again: the value at the stored point is {value:.3e}, and {before:.3e} was stored"
     if record["witness"] is not None:
         witness = attack.decide(tuple(Fraction(x) for x in record["witness"]["point"]))
         if witness is None:
             return "not found again: the stored point is no counterexample"
-        if [sha256(c) for c in witness.certificates] != [c["sha256"] for c in record["witness"]["certificates"]]:
+        if _named(witness.certificates) != record["witness"]["certificates"]:
             return "not found again: the certificates of the counterexample are other ones than those stored"
+        if witness.words != record["witness"]["words"]:
+            return "not found again: the counterexample has other words than those stored"
     if record["bracket"] is not None:
-        if attack.exact is None:
-            return "not found again: the quantity has no exact value"
-        first, second = (attack.exact(tuple(Fraction(x) for x in point)) for point in record["bracket"])
-        if first * second > 0:
+        first, second = (tuple(Fraction(x) for x in point) for point in record["bracket"])
+        if attack.exact is None or attack.aim != Aim.SIGN:
+            return "not found again: the attack seeks no change of sign"
+        if not all(low <= x <= high for point in (first, second) for x, (low, high) in zip(point, attack.family.box, strict=True)):
+            return "not found again: a stored point is not in the family"
+        if attack.exact(first) * attack.exact(second) >= 0:
             return "not found again: the signs at the two stored points agree"
     return None

@@ -9,7 +9,8 @@
 A lock is computed from the text of our sources, without comments and line breaks, so it is the same for each version of Rocq. It is the
 SHA-256 of the lines: what the file opens with, every sentence of every vocabulary that it imports, in order, what may change the reading
 of a text from afar (canonical structures and notations of the whole theory), the statement. Words that the statement does not reach are in
-it, too: a name that nobody uses can still stand for one of MathComp's. After a change that is wanted,
+it, too: a name that nobody uses can still stand for one of MathComp's. That a theorem says what a reading of the ledger says in words is
+for readers to see, too, and so the readings are locked with their theorems. After a change that is wanted,
 
     python -m faultspace.proofs.rocq.locks
 
@@ -27,6 +28,7 @@ from pathlib import Path
 from typing import Any
 
 from ...base.writing import write_text
+from ..verdict.ledger import load
 from .build import NotProved
 from .sentences import refusals
 from .sources import THEORY, sources
@@ -48,35 +50,38 @@ class Lock:
     sha256: str
 
     def to_json(self) -> dict[str, Any]:
-        """Returns the object of one theorem in the file."""
+        """Return the object of one theorem in the file."""
         return {"file": self.file, "sha256": self.sha256, "statement": self.statement, "words": list(self.words)}
 
 
 @dataclass(frozen=True)
 class Locks:
     """The locks hold `theorems` by name, and the texts that they are made of: `words` by key, `openings` by file, `far`. `vocabularies`:
-    file -> the SHA-256 of all that it says, in its order."""
+    file -> the SHA-256 of all that it says, in its order. `readings`: "claim.reading" -> the SHA-256 of it as the ledger has it, and of the
+    claim's words."""
 
     theorems: Mapping[str, Lock]
     words: Mapping[str, str]
     vocabularies: Mapping[str, str]
     openings: Mapping[str, str]
+    readings: Mapping[str, str]
     far: tuple[str, ...]
 
     def to_json(self) -> dict[str, Any]:
-        """Returns the object that the file holds."""
+        """Return the object that the file holds."""
         return {
             "about": f"The statements of the Rocq theory as they were last read. {COMMAND} writes this file.",
             "theorems": {name: lock.to_json() for name, lock in self.theorems.items()},
             "words": dict(self.words),
             "vocabularies": dict(self.vocabularies),
             "openings": dict(self.openings),
+            "readings": dict(self.readings),
             "far": list(self.far),
         }
 
 
 def made(texts: Mapping[str, str]) -> Locks:
-    """Returns the locks of these sources, file name -> text. Raises NotProved where a file says what no source may, or breaks a rule."""
+    """Return the locks of these sources, file name -> text. Raises NotProved where a file says what no source may, or breaks a rule."""
     if refused := refusals(texts):
         listed = "; ".join(f"{name} has {', '.join(found)}" for name, found in list(refused.items())[:MOST_LISTED])
         raise NotProved(f"the sources of the theory say what no source may: {listed}")
@@ -92,8 +97,18 @@ def made(texts: Mapping[str, str]) -> Locks:
         {key: words[key] for key in sorted(words)},
         {file: _sha256(found) for file, found in sorted(statements.vocabularies.items())},
         dict(sorted(statements.openings.items())),
+        _readings(),
         statements.far,
     )
+
+
+def _readings() -> dict[str, str]:
+    """Return the digests of the readings of the ledger, by their names."""
+    return {
+        f"{claim.id}.{reading.id}": _sha256([claim.statement, json.dumps(reading.to_json(), sort_keys=True)])
+        for claim in load()
+        for reading in claim.readings
+    }
 
 
 def _stated(headline: Headline) -> str:
@@ -112,20 +127,21 @@ def _sha256(lines: Sequence[str]) -> str:
 
 
 def kept() -> Locks:
-    """Returns the locks in theory/locks.json. Raises NotProved where the file is not there or not what this module writes."""
+    """Return the locks in theory/locks.json. Raises NotProved where the file is not there or not what this module writes."""
     try:
         data = json.loads(THEORY.joinpath(LOCKS).read_text("utf-8"))
         theorems = {
             str(name): Lock(str(one["file"]), str(one["statement"]), tuple(one["words"]), str(one["sha256"]))
             for name, one in data["theorems"].items()
         }
-        return Locks(theorems, dict(data["words"]), dict(data["vocabularies"]), dict(data["openings"]), tuple(data["far"]))
+        words, vocabularies, openings, readings = (dict(data[key]) for key in ("words", "vocabularies", "openings", "readings"))
+        return Locks(theorems, words, vocabularies, openings, readings, tuple(data["far"]))
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise NotProved(f"the locks of the statements, theory/{LOCKS}, cannot be read: {type(error).__name__}: {error}") from None
 
 
 def held(texts: Mapping[str, str], against: Locks | None = None) -> Locks:
-    """Returns the locks of these sources. Raises NotProved where they are not those kept, or where a source assumes something."""
+    """Return the locks of these sources. Raises NotProved where they are not those kept, or where a source assumes something."""
     now, before = made(texts), kept() if against is None else against
     found = list(differences(before, now))
     if found or before != now:
@@ -136,7 +152,7 @@ def held(texts: Mapping[str, str], against: Locks | None = None) -> Locks:
 
 
 def differences(before: Locks, now: Locks) -> Iterator[str]:
-    """Yields what is different, one sentence for each headline, word or opening that is."""
+    """Yield what is different, one sentence for each headline, word or opening that is."""
     for name in sorted({*before.theorems, *now.theorems}):
         old, new = before.theorems.get(name), now.theorems.get(name)
         if old is None:
@@ -155,6 +171,9 @@ def differences(before: Locks, now: Locks) -> Iterator[str]:
         said, was = now.openings.get(file, ""), before.openings.get(file, "")
         if said != was:
             yield f"what {file} opens with {_changed(said, was)}"
+    for name in sorted({*before.readings, *now.readings}):
+        if before.readings.get(name) != now.readings.get(name):
+            yield f"the ledger's reading {name} is not the one that was read with its theorems"
     for one in sorted({*before.far} ^ {*now.far}):
         yield f"{one} may change how statements are read, and is {'not locked' if one in now.far else 'gone'}"
     same = before.words == now.words and before.openings == now.openings and {*before.far} == {*now.far}
@@ -173,14 +192,14 @@ def _changed(text: str, before: str) -> str:
 
 
 def _around(text: str, other: str, width: int = 60) -> str:
-    """Returns the part of the text where it differs from the other, with some words before it."""
+    """Return the part of the text where it differs from the other, with some words before it."""
     first = next((k for k, (a, b) in enumerate(zip(text, other, strict=False)) if a != b), min(len(text), len(other)))
     start = max(0, text.rfind(" ", 0, max(0, first - 15)) + 1)
     return f"'{'...' if start else ''}{text[start : first + width]}{'...' if first + width < len(text) else ''}'"
 
 
 def written(locks: Locks) -> str:
-    """Returns the text of theory/locks.json."""
+    """Return the text of theory/locks.json."""
     return json.dumps(locks.to_json(), indent=1, ensure_ascii=False) + "\n"
 
 

@@ -119,29 +119,12 @@ def _cut(source: random.Random, content: bytes) -> bytes:
     return content[: source.randrange(len(content))]
 
 
-def _deleted(source: random.Random, content: bytes) -> bytes:
+def _at_a_place(source: random.Random, content: bytes) -> bytes:
+    """Delete, repeat or overwrite some bytes, or put a word before them or in their place."""
     first, last = _place(source, content)
-    return content[:first] + content[last:]
-
-
-def _repeated(source: random.Random, content: bytes) -> bytes:
-    first, last = _place(source, content)
-    return content[:last] + content[first:]
-
-
-def _inserted(source: random.Random, content: bytes) -> bytes:
-    first, _ = _place(source, content)
-    return content[:first] + source.choice(WORDS) + content[first:]
-
-
-def _replaced(source: random.Random, content: bytes) -> bytes:
-    first, last = _place(source, content)
-    return content[:first] + source.choice(WORDS) + content[last:]
-
-
-def _noise(source: random.Random, content: bytes) -> bytes:
-    first, last = _place(source, content)
-    return content[:first] + source.randbytes(last - first) + content[last:]
+    before, there, after = content[:first], content[first:last], content[last:]
+    word, noise = source.choice(WORDS), source.randbytes(last - first)
+    return before + source.choice([b"", there * 2, word + there, word, noise]) + after
 
 
 def _number(source: random.Random, content: bytes) -> bytes:
@@ -152,7 +135,7 @@ def _number(source: random.Random, content: bytes) -> bytes:
     return content[: one.start()] + source.choice(NUMBERS) + content[one.end() :]
 
 
-HARMS = (_bit, _early_byte, _cut, _deleted, _repeated, _inserted, _replaced, _noise, _number)
+HARMS = (_bit, _early_byte, _cut, *[_at_a_place] * 5, _number)
 
 
 def damaged(source: random.Random, content: bytes) -> bytes:

@@ -40,6 +40,7 @@ def refused(run: Run, *parts: str) -> None:
         assert part in run.err, run.err
 
 
+# One of each kind: the reader's whole messages on systems are those of `tests/exact/test_bad_systems.py`.
 DOCUMENTS: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
     # what is no JSON
     "empty": ("", ("empty",)),
@@ -67,23 +68,12 @@ DOCUMENTS: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
     "certificate": ('{"format": "faultspace-certificate/1", "kind": "left-invertible", "statement": {}, "witness": {}}', ("'format'",)),
     "unknown key": (changed(E=[["1"]]), ("'E'",)),
     "lone surrogate": ('{"\\ud800": 1}', ("unknown key",)),
-    "missing G": (changed(G=None), ('"G" is missing',)),
-    "B alone": (changed(B=[["1"], ["0"]]), ("B and D",)),
-    "nu alone": (changed(nu=1), ("nu",)),
     # entries
     "decimal": (changed(A=[["1/2", "1.5"], ["0", "1"]]), ("A[0][1]", "'1.5'", "rational")),
-    "exponent": (changed(A=[["1e3", "1"], ["0", "1"]]), ("A[0][0]", "'1e3'")),
-    "blank in entry": (changed(C=[["1", " 2"]]), ("C[0][1]", "' 2'")),
-    "newline in entry": (changed(C=[["1", "2\n"]]), ("C[0][1]",)),
-    "other digits": (changed(C=[["1", "\u0663"]]), ("C[0][1]",)),
-    "zero denominator": (changed(G=[["1/0"]]), ("G[0][0]", "'1/0'")),
-    "negative denominator": (changed(G=[["1/-2"]]), ("G[0][0]",)),
     "expression": (changed(G=[["__import__('os')"]]), ("G[0][0]",)),
     "float": (changed(A=[[0.5, "1"], ["0", "1"]]), ("A[0][0]", "0.5", "--floats-exactly")),
     "integral float": (changed(G=[[1.0]]), ("G[0][0]", "1.0")),
     "overflowing float": ('{"A": [["1"]], "F": [["1"]], "C": [["1"]], "G": [[1e999]]}', ("G[0][0]", "inf")),
-    "true": (changed(G=[[True]]), ("G[0][0]", "True")),
-    "null entry": (changed(G=[[None]]), ("G[0][0]", "None")),
     "object entry": (changed(G=[[{"p": 1}]]), ("G[0][0]",)),
     "list entry": (changed(G=[[["1", "2"]]]), ("G[0][0]",)),
     "long string": (changed(G=[["9" * 50_000]]), ("G[0][0]", "65536 bits")),
@@ -94,46 +84,21 @@ DOCUMENTS: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
     # shapes
     "ragged": (changed(A=[["1", "2"], ["3"]]), ("A[1]", "1 entry", "expected 2")),
     "not square": (changed(A=[["1", "2"]]), ("A", "1 x 2")),
-    "F too short": (changed(F=[["1"]]), ("F", "1 x 1", "2 x 1")),
-    "C too wide": (changed(C=[["1", "0", "0"]]), ("C", "1 x 3", "1 x 2")),
-    "G mismatched": (changed(G=[["0", "1"]]), ("G", "1 x 2", "1 x 1")),
-    "row is no list": (changed(A=["1", "2"]), ("A", "row")),
-    "matrix is no list": (changed(A="1"), ("A", "list of rows")),
     "matrix is an object": (changed(A={"0": ["1"]}), ("A", "list of rows")),
     "astronomic nu": ('{"A": [], "F": [], "C": [], "G": [], "B": [], "D": [], "n": 0, "m": 0, "p": 0, "nu": 1%s}' % ("0" * 30), ("nu",)),
-    "B mismatched": (changed(B=[["1"]], D=[["0"]]), ("B", "1 x 1", "2 x 1")),
-    "n disagrees": (changed(n=3), ("A", "2 x 2", "3 x 3")),
-    "n negative": (changed(n=-1), ("n", "-1")),
-    "n a string": (changed(n="2"), ("n", "'2'")),
-    "n true": (changed(n=True), ("n", "True")),
-    "zero dimension untold": (changed(F=[[], []], G=[[]]), ("F", "required")),
     "huge n": ('{"A": [], "F": [], "C": [], "G": [], "n": 1000000000, "m": 0, "p": 0}', ("1000000000", "512")),
     "astronomic n": ('{"A": [], "F": [], "C": [], "G": [], "n": 1%s, "m": 0, "p": 0}' % ("0" * 4000), ("512",)),
     "astronomic p": ('{"A": [], "F": [], "C": [], "G": [], "n": 0, "m": 0, "p": 1%s}' % ("0" * 9000), ("p",)),
     "large for real": (json.dumps({"A": [["1"] * 513] * 513, "F": [["1"]] * 513, "C": [["1"] * 513], "G": [["0"]]}), ("515", "512")),
     # fields
-    "field unknown": (changed(field="R"), ("field", "'R'")),
-    "field null": (changed()[:-1] + ', "field": null}', ("field", "None")),
-    "field of two": (changed(field={"prime": 2, "minimal_polynomial": ["1", "1"]}), ("field",)),
     "composite prime": (changed(A=[["1", "1"], ["0", "1"]], field={"prime": 4}), ("field.prime", "4")),
     "strong pseudoprime": (changed(A=[["1", "1"], ["0", "1"]], field={"prime": 3825123056546413051}), ("field.prime",)),
-    "prime 1": (changed(field={"prime": 1}), ("field.prime", "1")),
     "prime 0": (changed(field={"prime": 0}), ("field.prime", "0")),
     "prime negative": (changed(field={"prime": -7}), ("field.prime", "-7")),
-    "prime too large": (changed(field={"prime": 2**89 - 1}), ("field.prime", "2^64")),
-    "prime a string": (changed(field={"prime": "7"}), ("field.prime", "'7'")),
     "prime a float": (changed(field={"prime": 7.0}), ("field.prime", "7.0")),
-    "fraction over GF(7)": (changed(field={"prime": 7}), ("A[0][0]", "'1/2'", "integer")),
     "reducible": (changed(field={"minimal_polynomial": ["-1", "0", "1"]}), ("field.minimal_polynomial", "reducible")),
-    "a square": (changed(field={"minimal_polynomial": ["4", "4", "1"]}), ("field.minimal_polynomial", "reducible")),
     "reducible and long": (changed(field={"minimal_polynomial": ["-4" + "0" * 9_000, "0", "1" + "0" * 9_000]}), ("reducible",)),
-    "constant polynomial": (changed(field={"minimal_polynomial": ["1"]}), ("field.minimal_polynomial", "degree")),
-    "no polynomial": (changed(field={"minimal_polynomial": []}), ("field.minimal_polynomial", "degree")),
-    "zero lead": (changed(field={"minimal_polynomial": ["-2", "0", "1", "0"]}), ("field.minimal_polynomial", "leading")),
-    "long polynomial": (changed(field={"minimal_polynomial": ["-2"] + ["0"] * 40 + ["1"]}), ("field.minimal_polynomial", "degree")),
-    "polynomial of floats": (changed(field={"minimal_polynomial": [-2.0, 0, 1]}), ("field.minimal_polynomial", "-2.0")),
     "polynomial a string": (changed(field={"minimal_polynomial": "x^2 - 2"}), ("field",)),
-    "wrong number of coordinates": (changed(field=CUBIC, G=[[["1", "0"]]]), ("G[0][0]", "2", "3")),
     "a coordinate that is none": (changed(field=CUBIC, G=[[["1", "0", "x"]]]), ("G[0][0]", "'x'")),
 }
 
@@ -163,20 +128,9 @@ def test_the_sound_document_is_read() -> None:
     assert command("inspect", "-", "--json", stdin=b"\xef\xbb\xbf" + changed().encode()).code == 0
 
 
-APART = [
-    "nested lists",
-    "binary",
-    "key twice",
-    "long integer",
-    "very long integer",
-    "astronomic p",
-    "reducible and long",
-    "composite prime",
-]
-
-
-@pytest.mark.parametrize("name", APART)
+@pytest.mark.parametrize("name", ["nested lists", "binary", "very long integer", "reducible and long"])
 def test_the_same_in_a_process_of_its_own(name: str) -> None:
+    """Which has the stack, the decoders and the limit on digits that a process begins with."""
     content, parts = DOCUMENTS[name]
     refused(command("inspect", "-", stdin=content if isinstance(content, bytes) else content.encode()), "-: ", *parts)
 

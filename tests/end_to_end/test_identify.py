@@ -1,7 +1,7 @@
 """`faultspace identify`: whole runs on data whose answer is known, and what it says where the data cannot tell.
 
 answered        a run on it with pictures, order and sample time given, that several tests read, and its folder, of which they make a copy
-as_printed      a run of the command that `faultspace examples` prints, and its folder
+as_printed      a run of the command that `faultspace examples` prints, its folder, and the answer
 given           a run with order and number of faults given, where there is no matplotlib, and its folder
 response        what a fault column does to the outputs, whatever the basis of the states
 """
@@ -9,7 +9,6 @@ response        what a fault column does to the outputs, whatever the basis of t
 from __future__ import annotations
 
 import csv
-import hashlib
 import importlib.util
 import json
 import os
@@ -23,6 +22,7 @@ import pytest
 from numpy.typing import NDArray
 
 from faultspace import example_data as made
+from faultspace.cli import identifying as command
 from faultspace.cli.reading_files import _MODEL_KEYS, MODEL_FORMAT
 from faultspace.numeric.data.files import read_record
 from faultspace.numeric.data.records import recorded
@@ -32,6 +32,7 @@ from faultspace.numeric.method.signal.reconstruction import reconstruct_fault
 from faultspace.numeric.method.space.by_ranks import fault_space
 from faultspace.numeric.method.space.distances import containment_distance, subspace_distance
 from faultspace.numeric.plant import pipeline as identifying
+from faultspace.numeric.plant.answer import Identification
 from faultspace.numeric.plant.report import folders
 from faultspace.numeric.plant.report import result_files as report
 from faultspace.numeric.plant.report.causes_told import RESIDUAL
@@ -49,25 +50,38 @@ needs_matplotlib = pytest.mark.skipif(importlib.util.find_spec("matplotlib") is 
 
 @pytest.fixture(scope="module")
 def answered(tmp_path_factory: pytest.TempPathFactory, record: made.FaultyRecord) -> tuple[Run, Path]:
-    # Fixtures of a module come before those of a test, so that these pictures are rendered.
+    # Fixtures of a module come before those of a test, so that these pictures are rendered, in few points.
     folder = tmp_path_factory.mktemp("answered")
     path = small_csv(folder, made.csv_text(record), made.FILE_NAME)
-    run = identified(path, folder / "out", "--json", "--order", "3", "--dt", "0.25")
+    with pytest.MonkeyPatch.context() as patch:
+        if importlib.util.find_spec("matplotlib") is not None:
+            from matplotlib.figure import Figure
+
+            whole = Figure.savefig
+            patch.setattr(Figure, "savefig", lambda figure, file, **options: whole(figure, file, **{**options, "dpi": 20}))
+        run = identified(path, folder / "out", "--json", "--order", "3", "--dt", "0.25")
     assert run.code == 0, run.err
     return run, folder / "out"
 
 
 @pytest.fixture(scope="module")
-def as_printed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Run, Path]:
+def as_printed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Run, Path, Identification]:
     folder = tmp_path_factory.mktemp("examples") / "x"
     listed = call("examples", str(folder))
     assert listed.code == 0
+    found: list[Identification] = []
+
+    def kept(*records: Any, **options: Any) -> Identification:
+        found.append(identifying.identify(*records, **options))
+        return found[-1]
+
     with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(command, "identify", kept)
         if importlib.util.find_spec("matplotlib") is not None:
             patch.setattr("matplotlib.figure.Figure.savefig", lambda figure, file, **options: file.write(b"not rendered"))
         run = call("identify", *shlex.split(listed.err.partition("find it with: faultspace identify ")[2].replace("\n", " ")))
     assert run.code == 0, run.err
-    return run, folder
+    return run, folder, found[0]
 
 
 @pytest.fixture(scope="module")
@@ -93,11 +107,10 @@ def response(A: Any, F: Any, C: Any, G: Any, count: int = 8) -> Array:
 # The known answer
 
 
-def test_the_packaged_record_gives_the_fault_that_made_it(csv_file: Path, record: made.FaultyRecord, tmp_path: Path) -> None:
-    before = hashlib.sha256(csv_file.read_bytes()).hexdigest()
-    run = identified(csv_file, tmp_path / "out", "--json")
-    assert run.code == 0, run.err
-    answer = valid("identify", run.json)
+def test_the_packaged_record_gives_the_fault_that_made_it(as_printed: tuple[Run, Path, Identification], record: made.FaultyRecord) -> None:
+    _, folder, found_answer = as_printed
+    out = folder / "result"
+    answer = valid("identify", report.document(found_answer, made.FILE_NAME) | {"files": []})
     assert (answer["order"], answer["n_v"], answer["fault_space"]["n_z"]) == (3, 1, 1)
     assert (answer["orders"]["least"], answer["orders"]["most"]) == (3, 3) and not answer["exact"]
     assert answer["stable"] and answer["samples"] == made.SAMPLES
@@ -110,28 +123,28 @@ def test_the_packaged_record_gives_the_fault_that_made_it(csv_file: Path, record
         nearest = min(truth, key=lambda z: abs(z - complex(*pole)))
         assert abs(pole[0] - nearest.real) <= 4 * error[0] and abs(pole[1] - nearest.imag) <= 4 * error[1]
 
-    model = json.loads((tmp_path / "out" / report.MODEL).read_text("utf-8"))
+    model = json.loads((out / report.MODEL).read_text("utf-8"))
     found = StateSpaceModel.from_json(model)
     true_model = StateSpaceModel(made.A, made.B, made.C, made.D)
     assert np.allclose(found.markov(8), true_model.markov(8), atol=0.06)
     space = answer["fault_space"]
-    assert valid("fault-space", json.loads((tmp_path / "out" / report.SPACE).read_text("utf-8"))) == space
+    assert valid("fault-space", json.loads((out / report.SPACE).read_text("utf-8"))) == space
     assert space["equations"] + space["n_z"] == space["unknowns"] == found.n + 3
     true_response = response(made.A, made.F, made.C, made.G)
     assert subspace_distance(response(found.A, space["F"], found.C, space["G"]), true_response) < 0.06
     assert subspace_distance(response(found.A, model["F"], found.C, model["G"]), true_response) < 0.06
 
-    with open(tmp_path / "out" / report.SIGNAL, newline="", encoding="utf-8") as stream:
+    with open(out / report.SIGNAL, newline="", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
     assert [int(row["sample"]) for row in rows] == list(range(made.SAMPLES))
     first, last = answer["fault_signal"]["trusted"]
     assert [int(row["determined"]) for row in rows] == [int(first <= k < last) for k in range(made.SAMPLES)]
     v = np.array([float(row["v1"]) for row in rows])
     assert abs(np.corrcoef(v[first:last], record.v[first:last, 0])[0, 1]) > 0.98
-    assert hashlib.sha256(csv_file.read_bytes()).hexdigest() == before
+    assert (folder / made.FILE_NAME).read_text("utf-8") == made.csv_text(record)
 
 
-def test_people_read_a_summary_and_find_the_files(as_printed: tuple[Run, Path]) -> None:
+def test_people_read_a_summary_and_find_the_files(as_printed: tuple[Run, Path, Identification]) -> None:
     run, out = as_printed[0], as_printed[1] / "result"
     assert "order **3**, chosen from the data: the only one left open" in run.out and "n_v: **1**" in run.out and run.err == ""
     for part in (
@@ -469,7 +482,7 @@ def test_the_hair_dryer(tmp_path: Path) -> None:
     assert any("--operating-point means" in row["advice"] for row in remembered.json["doubts"]["rows"])
 
 
-def test_examples_write_the_record(as_printed: tuple[Run, Path], record: made.FaultyRecord) -> None:
+def test_examples_write_the_record(as_printed: tuple[Run, Path, Identification], record: made.FaultyRecord) -> None:
     assert (as_printed[1] / "result" / report.MODEL).exists()
     path = as_printed[1] / made.FILE_NAME
     assert path.stat().st_size < 200_000

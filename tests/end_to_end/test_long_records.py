@@ -180,7 +180,7 @@ from faultspace.numeric.plant.steps import explaining
 from faultspace.numeric.data import records
 from faultspace.numeric.plant.monitor import monitoring
 from faultspace.numeric.method.signal import reconstruction
-explaining.HELD, records.IN_MEMORY, reconstruction.LONGEST, monitoring.NUMBERS = 1 << 15, {in_memory}, 1 << 13, 1 << 20
+explaining.HELD, records.IN_MEMORY, reconstruction.LONGEST, monitoring.NUMBERS = 1 << 15, 1 << 20, 1 << 13, 1 << 20
 with contextlib.suppress(ImportError):
     from matplotlib.figure import Figure
     Figure.savefig = lambda figure, file, **options: file.write(b"not rendered")
@@ -190,9 +190,8 @@ with open("/proc/self/status") as status:
 """
 
 
-def peak(path: Path, channels: tuple[str, ...], in_memory: int = 1 << 20) -> float:
-    script, options = SCRIPT.format(in_memory=in_memory), ("--order", "3", "--out", str(path) + ".answer")
-    line = [sys.executable, "-c", script, "identify", str(path), *channels, *options]
+def peak(path: Path, channels: tuple[str, ...]) -> float:
+    line = [sys.executable, "-c", SCRIPT, "identify", str(path), *channels, "--order", "3", "--out", f"{path}.answer"]
     run = subprocess.run(line, capture_output=True, cwd=ROOT, env=environment(), timeout=1200, text=True)
     code, most = run.stderr.split()[-2:]
     assert code == "0", run.stderr
@@ -200,8 +199,14 @@ def peak(path: Path, channels: tuple[str, ...], in_memory: int = 1 << 20) -> flo
 
 
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no /proc to read the peak of memory from")
-@pytest.mark.long
-@pytest.mark.parametrize("format", [pytest.param("csv", marks=pytest.mark.slow), pytest.param("parquet", marks=pytest.mark.slow), "npy"])
+@pytest.mark.parametrize(
+    "format",
+    [
+        pytest.param("csv", marks=pytest.mark.slow),
+        pytest.param("parquet", marks=pytest.mark.slow),
+        pytest.param("npy", marks=pytest.mark.programs),
+    ],
+)
 def test_memory_does_not_grow_with_the_record(format: str, tmp_path: Path) -> None:
     if format == "parquet" and importlib.util.find_spec("pyarrow") is None:
         pytest.skip("pyarrow is not installed")

@@ -101,6 +101,7 @@ def test_nothing_is_fetched_nothing_is_said_and_every_link_resolves(browser: Any
     tab.context.close()
 
 
+@pytest.mark.programs
 @pytest.mark.parametrize("scheme", ["light", pytest.param("dark", marks=pytest.mark.slow)])
 def test_axe_finds_nothing(browser: Any, page: Path, scheme: str) -> None:
     axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
@@ -113,6 +114,7 @@ def test_axe_finds_nothing(browser: Any, page: Path, scheme: str) -> None:
     tab.context.close()
 
 
+@pytest.mark.programs
 def test_the_keyboard_reaches_everything(browser: Any, page: Path) -> None:
     tab = opened(browser, page, [])
     tab.keyboard.press("Tab")
@@ -133,6 +135,7 @@ def test_the_keyboard_reaches_everything(browser: Any, page: Path) -> None:
     tab.context.close()
 
 
+@pytest.mark.programs
 def test_a_link_into_what_is_closed_opens_it(browser: Any, page: Path) -> None:
     tab = opened(browser, page, [])
     place = tab.get_attribute("#certificates ~ details tr[id]", "id")
@@ -142,6 +145,7 @@ def test_a_link_into_what_is_closed_opens_it(browser: Any, page: Path) -> None:
     tab.context.close()
 
 
+@pytest.mark.programs
 def test_a_phone_shows_it_without_scrolling_sideways(browser: Any, page: Path) -> None:
     tab = opened(browser, page, [], viewport=PHONE)
     tab.evaluate("document.querySelectorAll('details').forEach(one => one.open = true)")
@@ -151,6 +155,7 @@ def test_a_phone_shows_it_without_scrolling_sideways(browser: Any, page: Path) -
     tab.context.close()
 
 
+@pytest.mark.programs
 def test_on_paper_everything_is_open(browser: Any, page: Path, tmp_path: Path) -> None:
     tab = opened(browser, page, [])
     tab.pdf(path=tmp_path / "page.pdf", tagged=True)
@@ -172,12 +177,14 @@ def test_on_paper_everything_is_open(browser: Any, page: Path, tmp_path: Path) -
         assert len(packed.pages) > 5 and "/StructTreeRoot" in packed.Root, "it can still be read aloud"
 
 
+@pytest.mark.programs
 def test_without_its_script_the_page_shows_all_systems(browser: Any, page: Path) -> None:
     tab = opened(browser, page, [], java_script_enabled=False)
     assert tab.is_visible("#system-1") and tab.is_visible("#system-2")
     tab.context.close()
 
 
+@pytest.mark.programs
 def test_what_is_not_as_expected_is_the_first_thing_seen(browser: Any, records: Records, tmp_path: Path) -> None:
     tab = opened(browser, written(render(changed(records, another_verdict)), tmp_path / "report.html"), [])
     assert tab.title().startswith("NOT as expected")

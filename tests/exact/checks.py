@@ -1,5 +1,6 @@
 """This is what the tests of this room ask of one system or two. Every check raises AssertionError and takes a SYSTEM of the format.
 
+    as_exact                    the oracle's matrix as one of this room
     read, indices               SYSTEM -> ResidualSystem; its Kronecker indices and zeros in one tuple
     check_report                `structure` says what the slow oracle says
     check_window_ranks          recursion, kernel rows and built matrices agree on rank [O_s T_s] and rank T_s
@@ -25,7 +26,7 @@ from random import Random
 from typing import Any
 
 from faultspace.exact.algebra import polynomials
-from faultspace.exact.algebra.fields import PrimeField
+from faultspace.exact.algebra.fields import Field, PrimeField
 from faultspace.exact.algebra.matrices import Matrix, beside, left_null_space, rank, row_echelon, stacked
 from faultspace.exact.algebra.polynomials import Poly, PolyMatrix, SmithDiagonal
 from faultspace.exact.structure.behavior import Separation, compare
@@ -53,6 +54,7 @@ from faultspace.exact.system.systems import ResidualSystem, read_system
 from faultspace.exact.system.windows import toeplitz_matrix, window_matrix
 from tests.oracle import first_difference, inspect_slowly, same_report
 from tests.oracle.fault_space import fault_space as slow_fault_space
+from tests.oracle.linear import Matrix as SlowMatrix
 from tests.oracle.pencil import infinite_zero_orders_of_pencil, right_minimal_indices_of_pencil
 from tests.oracle.pencil import invariant_zero_polynomial as slow_zero_polynomial
 from tests.oracle.systems import parse_system
@@ -77,6 +79,12 @@ def indices(system: ResidualSystem) -> tuple[Any, ...]:
         all_of_it.delay_known_state,
         all_of_it.delay_unknown_state,
     )
+
+
+def as_exact(matrix: SlowMatrix, field: Field) -> Matrix:
+    """Return the oracle's matrix as one of this room."""
+    rows = [[matrix.field.write(x) for x in row] for row in matrix.rows]
+    return Matrix.of(rows, field, shape=(matrix.height, matrix.width))
 
 
 def random_matrix(rng: Random, system: ResidualSystem, nrows: int, ncols: int) -> Matrix:
@@ -236,8 +244,7 @@ def check_fault_spaces(system: Json) -> None:
     dimensions = []
     for s in range(exact.n + 3):
         found = fault_space(kernel, s)
-        wanted = [[slow.field.write(x) for x in row] for row in slow_fault_space(slow, s).rows]
-        assert found.basis == Matrix.of(wanted, exact.field, shape=(len(wanted), exact.n + exact.p))
+        assert found.basis == as_exact(slow_fault_space(slow, s), exact.field)
         assert found.basis == row_echelon(found.basis).matrix
         assert found.dimension == fault_space_dimension(kernel, s)
         assert found.is_limit == (s >= limit.exact_from) and limit.is_limit

@@ -21,7 +21,7 @@ from tests.exact.checks import read
 from tests.exact.test_broken_on_purpose import Broken, noticed
 from tests.oracle.families import FIELDS, adversarial
 from tests.oracle.strategies import SEEDS, system_pairs, systems
-from tests.thorough import examples
+from tests.thorough import examples, sampled
 
 Json = Any
 Q, THREE = adversarial("Q"), adversarial({"prime": 3})
@@ -167,6 +167,6 @@ BROKEN: dict[str, Broken] = {
 }
 
 
-@pytest.mark.parametrize("name", list(BROKEN))
+@pytest.mark.parametrize("name", sampled(BROKEN, 4))
 def test_it_is_noticed(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     noticed(monkeypatch, BROKEN[name])

@@ -1,4 +1,4 @@
-"""Population limits against their slow twins: dense Lyapunov equations, impulse responses summed, normal equations written out."""
+"""Population limits against the oracle, which solves dense equations and writes regressions out, and against long sums in floats."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-import sympy
 
 from faultspace.exact.algebra.fields import QQ
 from faultspace.exact.algebra.matrices import Matrix, beside, rank, stacked
@@ -19,8 +18,10 @@ from faultspace.exact.limits.moesp import limit
 from faultspace.exact.limits.moments import covariances, window_covariances
 from faultspace.exact.limits.process import joint_process
 from faultspace.exact.system.windows import observability_matrix
-from tests.exact import slow_limits as slow
+from tests.exact.checks import as_exact
 from tests.exact.experiment_families import random_experiment
+from tests.oracle import limits as slow
+from tests.oracle.systems import parse_matrix
 
 SHAPES = [
     {"n": 2, "m": 1, "p": 2, "nu": 1},
@@ -42,29 +43,26 @@ def excited(experiment: Experiment) -> bool:
 @pytest.mark.parametrize("seed", range(3))
 def test_the_covariance_is_the_one_of_the_dense_equation(seed: int, shape: dict[str, int]) -> None:
     process = joint_process(random_experiment(seed, finite=False, **shape))
-    assert state_covariance(process).to_sympy() == slow.dense_covariance(process)
+    Phi, Gamma = (parse_matrix(slow.Q, part.to_json(), *part.shape) for part in (process.Phi, process.Gamma))
+    assert state_covariance(process) == as_exact(slow.lyapunov(Phi, Gamma), QQ)
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=str)
 @pytest.mark.parametrize("seed", range(3))
-def test_finite_responses_sum_to_the_same_limits(seed: int, shape: dict[str, int]) -> None:
-    """FIR filters and a nilpotent A: every covariance is a finite sum, which knows neither joint process nor Lyapunov equation."""
+def test_the_limits_are_those_of_the_oracle(seed: int, shape: dict[str, int]) -> None:
+    """The oracle sums impulse responses, and solves dense equations; neither this process nor this Lyapunov solver is known to it."""
     experiment = random_experiment(seed + 100, finite=True, **shape)
     assert excited(experiment)
-    found = limit(experiment)
-    made = slow.responses(experiment, 12)
-    assert all(block.is_zero_matrix for block in (made.y[-1], made.u[-1], made.v[-1]))
-    known, s, past = found.known, experiment.s, experiment.past
+    found, told = limit(experiment), slow.parse_experiment(experiment.to_json())
+    known, (driven, signals) = found.known, slow.process(told)
     for lag in range(-5, 6):
-        for a, b, slow_a, slow_b in (("y", "u", made.y, made.u), ("y", "y", made.y, made.y), ("v", "u", made.v, made.u)):
+        for a, b in (("y", "u"), ("y", "y"), ("v", "u")):
             fast = known.sequence(getattr(known.process, a), getattr(known.process, b), lag, lag)[lag]
-            assert fast.to_sympy() == sympy.ImmutableMatrix(slow.covariance(slow_a, slow_b, lag)), (lag, a, b)
+            assert fast == as_exact(driven.covariance(signals[a], signals[b], lag), QQ), (lag, a, b)
     for result, outputs in ((found.past_inputs, False), (found.past_outputs, True)):
-        expected = slow.slow_limit(made, s, past, outputs=outputs)
-        assert result.matrix.to_sympy() == sympy.ImmutableMatrix(expected)
-        columns = observability_matrix(experiment.system.residual, s).to_sympy()
-        ranks = expected.rank(), columns.rank(), columns.row_join(expected).rank()
-        assert (result.rank, result.observability_rank, result.joint_rank) == ranks
+        expected = slow.moesp_limit_of(told, outputs)
+        assert expected is not None and result.matrix == as_exact(expected, QQ)
+        assert (result.rank, result.observability_rank, result.joint_rank) == slow.moesp_ranks(told, outputs)
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -72,18 +70,16 @@ def test_regressions_are_the_ones_written_out(seed: int) -> None:
     """A is nilpotent and the pair observable, so that both regressions have one solution and it is a finite sum."""
     experiment = random_experiment(seed + 200, finite=True, nu=1 + seed % 2, s=3)
     residual = experiment.system.residual
-    made = slow.responses(experiment, 12)
+    told = slow.parse_experiment(experiment.to_json())
     known = covariances(experiment)
     blocks = window_covariances(experiment, known)
     observability = observability_matrix(residual, experiment.s)
     error, moesp = by_output_error(known, residual.A, residual.C), by_moesp(blocks, observability, residual.p)
-    observable = rank(observability) == residual.n
-    assert (error is not None) == observable
-    if not observable:
-        return
-    assert error is not None and moesp is not None
-    assert tuple(map(sympy.Matrix, (error.B.to_sympy(), error.D.to_sympy()))) == slow.slow_output_error(experiment, made)
-    assert tuple(map(sympy.Matrix, (moesp.B.to_sympy(), moesp.D.to_sympy()))) == slow.slow_moesp(experiment, made)
+    assert (error is not None) == (rank(observability) == residual.n)
+    for fast, expected in ((error, slow.output_error(told)), (moesp, slow.moesp_regression(told))):
+        assert (fast is None) == (expected is None)
+        if fast is not None and expected is not None:
+            assert tuple(as_exact(one, QQ) for one in expected) == (fast.B, fast.D)
 
 
 def test_the_regressions_were_compared_on_observable_pairs() -> None:

@@ -20,7 +20,6 @@ from faultspace.exact.system.systems import ResidualSystem
 from faultspace.exact.system.windows import window_matrix
 from tests.exact import checks
 from tests.oracle.behaviours import excitation, residual_hankel
-from tests.oracle.linear import Matrix as SlowMatrix
 from tests.oracle.strategies import SEEDS, systems
 from tests.oracle.systems import parse_system, trajectory
 from tests.thorough import examples
@@ -34,12 +33,6 @@ def excited(given: ResidualSystem, seed: int, samples: int) -> Trajectory:
     """The result is a random trajectory."""
     rng = Random(seed)
     return simulate(given, checks.random_matrix(rng, given, given.n, 1), checks.random_matrix(rng, given, samples, given.m))
-
-
-def as_exact(matrix: SlowMatrix, field: Any) -> Matrix:
-    """The result is the oracle's matrix as one of this room."""
-    rows = [[matrix.field.write(x) for x in row] for row in matrix.rows]
-    return Matrix.of(rows, field, shape=(matrix.height, matrix.width))
 
 
 @SOME
@@ -58,8 +51,8 @@ def test_the_recursion_by_hand(given: Json, seed: int, samples: int) -> None:
     assert [list(x.entries()) for x in states] == parsed(found.states.to_json())
     assert [list(r.entries()) for r in outputs] == parsed(found.residuals.to_json())
     for s in range(samples + 1):
-        assert hankel(found.residuals, s) == as_exact(residual_hankel(slow, x0, v, s), exact.field)
-        assert excitation_matrix(found, s) == as_exact(excitation(slow, x0, v, s), exact.field)
+        assert hankel(found.residuals, s) == checks.as_exact(residual_hankel(slow, x0, v, s), exact.field)
+        assert excitation_matrix(found, s) == checks.as_exact(excitation(slow, x0, v, s), exact.field)
 
 
 @SOME

@@ -24,8 +24,6 @@ from tests.thorough import every, examples
 
 Json = Any
 FIELD_PARAMETERS = pytest.mark.parametrize("field", list(FIELDS.values()), ids=list(FIELDS))
-NAMED = {f"{name} over {over}": s for over, field in FIELDS.items() for name, s in adversarial(field).items()}
-
 MANY = 500  # systems: of more, one in `every()` is tried
 # n, p, m and the prime: below 2^10 systems each
 EXHAUSTED = [(2, n, p, m) for n, p, m in product(range(2), range(3), range(2))]
@@ -49,9 +47,10 @@ def test_drawn_systems(field: Json, data: st.DataObject) -> None:
     checks.check_report(data.draw(systems(field=field)))
 
 
-@pytest.mark.parametrize("name", list(NAMED))
-def test_named_systems(name: str) -> None:
-    checks.check_report(NAMED[name])
+@FIELD_PARAMETERS
+def test_named_systems(field: Json) -> None:
+    for system in adversarial(field).values():
+        checks.check_report(system)
 
 
 @pytest.mark.parametrize("prime, n, p, m", EXHAUSTED)

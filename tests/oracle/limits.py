@@ -4,7 +4,8 @@ parse_experiment(json)    EXPERIMENT -> Experiment; raises ValueError, over othe
 is_stationary(e)          A and all denominators have their roots inside the unit circle
 Process(Phi, Gamma)       xi(k+1) = Phi xi(k) + Gamma e(k); its states are x and the past values that the difference equations name
 covariance(a, b, lag)     E a(k + lag) b(k)' of two of its signals
-moesp_ranks(e, past_outputs)   the ranks of L, O_s and [L O_s], None where Cov(Uf) is singular
+moesp_limit_of(e, past_outputs)   L = Cov(Yf, Z) - Cov(Yf, Uf) Cov(Uf)^-1 Cov(Uf, Z), None where Cov(Uf) is singular
+moesp_ranks(e, past_outputs)   the ranks of L, O_s and [L O_s], None likewise
 output_error(e)           the only (B, D) that minimise E|y - G(q)u|^2, None where there are several
 moesp_regression(e)       the only (B, D) nearest to Cov(Yf, Uf) Cov(Uf)^-1 up to the columns of O_s, None likewise
 
@@ -163,10 +164,8 @@ def lyapunov(Phi: Matrix, Gamma: Matrix) -> Matrix:
     return matrix(Q, size, size, [[found.rows[unknowns[min(i, j), max(i, j)]][0] for j in range(size)] for i in range(size)])
 
 
-def moesp_ranks(e: Experiment, past_outputs: bool) -> tuple[int, int, int] | None:
-    """These are the ranks of L = Cov(Yf, Z) - Cov(Yf, Uf) Cov(Uf)^-1 Cov(Uf, Z), of O_s and of [L O_s]; Z past inputs, or with past
-    outputs.
-    """
+def moesp_limit_of(e: Experiment, past_outputs: bool) -> Matrix | None:
+    """Return L with past inputs for Z, or with past inputs and outputs."""
     driven, signals = process(e)
     past, future = range(-e.past, 0), range(e.s)
     u, y = signals["u"], signals["y"]
@@ -179,9 +178,13 @@ def moesp_ranks(e: Experiment, past_outputs: bool) -> tuple[int, int, int] | Non
         outputs = beside(outputs, driven.windows(y, future, y, past))
     projection = solve(inner, inputs)
     assert projection is not None
-    limit = outputs + _times(-Q.one, driven.windows(y, future, u, future) @ projection)
-    seen = observability(e.system, e.s)
-    return rank(limit), rank(seen), rank(beside(limit, seen))
+    return outputs + _times(-Q.one, driven.windows(y, future, u, future) @ projection)
+
+
+def moesp_ranks(e: Experiment, past_outputs: bool) -> tuple[int, int, int] | None:
+    """Return the ranks of L, of O_s and of [L O_s]."""
+    limit, seen = moesp_limit_of(e, past_outputs), observability(e.system, e.s)
+    return None if limit is None else (rank(limit), rank(seen), rank(beside(limit, seen)))
 
 
 def output_error(e: Experiment) -> tuple[Matrix, Matrix] | None:

@@ -287,10 +287,9 @@ MALFORMED: list[tuple[str, Any]] = [
 ]
 
 
-@pytest.mark.parametrize("kind, statement, expected", CASES)
-def test_known_truths(kind: str, statement: dict[str, Any], expected: bool) -> None:
-    assert truth(kind, statement) is expected
-    assert premise_holds(kind, statement)
+def test_known_truths() -> None:
+    wrong = [one for one in CASES if truth(*one[:2]) is not one[2] or not premise_holds(*one[:2])]
+    assert wrong == []
 
 
 @pytest.mark.parametrize("window, holds", [(None, True), (3, True), (9, True), (2, False), (1, False)])
@@ -312,10 +311,10 @@ def test_every_kind_has_a_true_and_a_false_case() -> None:
         assert {expected for k, _, expected in CASES if k == kind} >= {True, False}
 
 
-@pytest.mark.parametrize("kind, statement", MALFORMED)
-def test_malformed_statements(kind: str, statement: Any) -> None:
-    with pytest.raises(ValueError):
-        truth(kind, statement)
+def test_malformed_statements() -> None:
+    for kind, statement in MALFORMED:
+        with pytest.raises(ValueError):
+            pytest.fail(f"{kind} of {statement} is {truth(kind, statement)}")
 
 
 def test_the_premise_is_that_the_polynomial_is_irreducible() -> None:

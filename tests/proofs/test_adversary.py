@@ -167,10 +167,34 @@ def test_a_record_that_was_tampered_with_is_noticed() -> None:
     witness = record["witness"]
     moved = record | {"witness": witness | {"point": ["0", *witness["point"][1:]]}}
     renamed = record | {"witness": witness | {"certificates": [{"kind": "moesp-limit", "sha256": "0" * 64}]}}
-    for spoilt, word in ((other_words, "out of date"), (nearer, "value"), (moved, "no counterexample"), (renamed, "certificates")):
+    of_another_kind = record | {"witness": witness | {"certificates": [one | {"kind": "other"} for one in witness["certificates"]]}}
+    forged = {
+        "family": "all systems of any size", "measured": "everything", "aim": "x", "outcome": "proved for all systems", "point": [],
+        "nearest": float("nan"), "witness": witness | {"words": "A = 0: everything fails"},
+    }  # fmt: skip
+    both = [["1/3"] * len(record["point"])] * 2
+    outside = [["5"] * len(both[0])] * 2
+    brackets = [record | {"outcome": results.CHANGE, "witness": None, "bracket": found} for found in (both, outside, None)]
+    words = ("another family", "another measured", "another aim", "its outcome", "parameters", "value", "other words")
+    spoilt_records = [
+        (other_words, "out of date"), (nearer, "value"), (moved, "no counterexample"), (renamed, "certificates"),
+        (of_another_kind, "certificates"),
+        *((record | {name: said}, word) for (name, said), word in zip(forged.items(), words, strict=True)),
+        *zip(brackets, ("signs", "not in the family", "its outcome"), strict=True),
+    ]  # fmt: skip
+    for spoilt, word in spoilt_records:
         (attacked,) = checked_again(target, [spoilt])
         assert attacked.trouble is not None and word in attacked.trouble
         assert not attacked.refutes
+
+
+def test_a_counterexample_that_the_file_hides_is_found_whatever_time_it_tells() -> None:
+    """A search that took long was not done again, and how long it took stands in the same file."""
+    record = record_of("canonical-form.feedback by feedback: det of the first n rows of O_n")
+    hidden = record | {"outcome": results.NONE, "witness": None, "bracket": None, "seconds": 9.0, "whole": True}
+    (attacked,) = checked_again(record["target"], [hidden])
+    assert attacked.trouble is not None and "finds something now" in attacked.trouble
+    assert attacked.words.endswith("the beginning of it now, a counterexample")
 
 
 def reading_result(target: str, verdict: Verdict) -> tuple[ReadingResult, str]:

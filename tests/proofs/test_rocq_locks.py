@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from docs.tools.pages import statements
+from faultspace.proofs import verification
 from faultspace.proofs.rocq import locks as rocq_locks
 from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, NotProved, compile_file, compiled_theory
 from faultspace.proofs.rocq.locks import held, kept, made, written
@@ -17,11 +18,13 @@ from faultspace.proofs.rocq.sources import THEORY, sources
 from faultspace.proofs.rocq.statements import Headline, read
 from faultspace.proofs.rocq.theorems import parted
 from faultspace.proofs.verdict.ledger import load
+from faultspace.proofs.verdict.verdicts import Verdict
 from tests.proofs.test_rocq_headlines import CHANGES
 from tests.thorough import every
 
 TEXTS = sources()
 STATEMENTS = read(TEXTS)
+LOCKED = kept()
 WORDS = sorted({word.key: word for words in STATEMENTS.words.values() for word in words.values()}.items())
 
 
@@ -151,6 +154,38 @@ def test_a_headline_or_word_that_comes_or_goes_is_noticed() -> None:
         held(TEXTS, replace(locks, far=(*locks.far, locks.far[0])))
     with pytest.raises(NotProved, match=r"the word Vocabulary\.gap is not locked"):
         held(TEXTS, replace(locks, words={key: text for key, text in locks.words.items() if key != "Vocabulary.gap"}))
+
+
+def test_a_reading_is_locked_with_its_theorems(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Words that say more, theorems of another reading and its check were PROVED with exit 0, as was any theorem that is true."""
+    claims = load()
+    readings = [one for claim in claims for one in claim.readings]
+    for claim in claims:
+        for one, other in zip(claim.readings, readings[::-1], strict=False):
+            changes = {"statement": f"{one.statement} Always."}, {"theorems": other.theorems}, {"check": other.check}, {"hypotheses": ()}
+            for spoilt in (replace(one, **change) for change in changes):  # type: ignore[arg-type]
+                forged = replace(claim, readings=tuple(spoilt if kept is one else kept for kept in claim.readings))
+                ledger = [forged if kept is claim else kept for kept in claims]
+                monkeypatch.setattr(rocq_locks, "load", lambda ledger=ledger: ledger)
+                said = [*rocq_locks.differences(LOCKED, replace(LOCKED, readings=made({}).readings))]
+                refusal = f"the ledger's reading {claim.id}.{one.id} is not the one that was read with its theorems"
+                assert said == ([] if spoilt == one else [refusal])
+
+
+@pytest.mark.parametrize("theorems", [True, False])
+def test_a_run_is_in_error_where_a_reading_is_not_as_locked(monkeypatch: pytest.MonkeyPatch, theorems: bool) -> None:
+    """Also a reading that no theorem says; what was forged is the first of the claim."""
+    claims = load()
+    claim = next(one for one in claims if one.id == "example-v")
+    first, *others = (one if theorems else replace(one, theorems=()) for one in claim.readings)
+    forged = replace(claim, readings=(replace(first, statement="Every window is long enough."), *others))
+    for module in rocq_locks, verification:
+        monkeypatch.setattr(module, "load", lambda: [forged if one.id == forged.id else one for one in claims])
+    monkeypatch.setattr(verification, "_believed", lambda: None)
+    report = verification.verify("example-v", jobs=1)
+    assert not report.as_expected
+    assert {one.outcome.verdict for one in report.claims[0].readings} == {Verdict.ERROR}
+    assert "the ledger's reading example-v." in report.machine and "is not the one that was read" in report.machine
 
 
 def test_comments_and_line_breaks_change_nothing() -> None:

@@ -54,7 +54,7 @@ class Arx:
 
     @property
     def order(self) -> int:
-        """This is h, the number of lags."""
+        """H, the number of lags."""
         return len(self.outputs) - 1
 
     def plant(self, angles: Array) -> ComplexArray:

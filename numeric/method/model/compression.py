@@ -41,7 +41,7 @@ Pieces = Iterable[tuple[Array, Array]]
 
 
 class Blocks(NamedTuple):
-    """These are the blocks of L = R.T against Uf, Up, Yf: Yf = l31 Q1 + l32 Q2 + l33 Q3, Up = l21 Q1 + l22 Q2, Uf = l11 Q1, with
+    """The blocks of L = R.T against Uf, Up, Yf: Yf = l31 Q1 + l32 Q2 + l33 Q3, Up = l21 Q1 + l22 Q2, Uf = l11 Q1, with
     orthonormal Q1, Q2, Q3."""
 
     l11: Array
@@ -54,7 +54,7 @@ class Blocks(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Compression:
-    """This is what PI-MOESP needs of any number of samples.
+    """What PI-MOESP needs of any number of samples.
 
     `factor` (k, k) is upper triangular with a nonnegative diagonal, k = (block_rows + past_rows) n_u + block_rows p; the rows of H come in
     the order Uf, Up, Yf, in each by time, then channel. `samples` and `columns` (windows) are counted over all parts merged; `condition` is

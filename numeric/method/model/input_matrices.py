@@ -33,7 +33,7 @@ Pieces = Iterable[tuple[Array, Array]]
 
 @dataclass(frozen=True, eq=False)
 class InputMatrices:
-    """These are B (n, n_u), D (p, n_u), one initial state (n,) an experiment where the data were read, the condition of the scaled
+    """B (n, n_u), D (p, n_u), one initial state (n,) an experiment where the data were read, the condition of the scaled
     regression, and where the data were read the sum `squares` (p, p) of r(k) r(k)^T over all samples, r being what the model leaves."""
 
     B: Array

@@ -51,7 +51,7 @@ def _matrix(values: ArrayLike, name: str) -> Array:
 
 @dataclass(frozen=True, eq=False, init=False, repr=False)
 class StateSpaceModel(Shown):
-    """This is a linear model in floats: x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k).
+    """A linear model in floats: x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k).
 
     A (n, n), B (n, n_u), C (p, n) and D (p, n_u) are anything that numpy reads as a matrix, in the units of the data, and are copied to
     read-only float64. n may be 0: the arrays then have the shapes (0, 0), (0, n_u), (p, 0) and (p, n_u). Look at `poles` and `is_stable`

@@ -20,7 +20,7 @@ from .models import Identified, StateSpaceModel
 
 
 class OrderUndecided(InvalidData):
-    """This is the error that no order could be chosen, from data that are good enough for a model of a given order [V93].
+    """The error that no order could be chosen, from data that are good enough for a model of a given order [V93].
 
     `pi_moesp` and `po_moesp` raise it where the singular values have no gap to trust; it is an InvalidData, whose `singular_values`,
     falling and as many as the number of rows of the projected outputs, tell what could be chosen. Raises nothing itself; `identify` never
@@ -55,7 +55,7 @@ class Gap:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MoespModel(Identified, Shown):
-    """This is the model that PI-MOESP identified [V93], and how far to trust it.
+    """The model that PI-MOESP identified [V93], and how far to trust it.
 
     `model` holds A (n, n), B (n, n_u), C (p, n) and D (p, n_u), which stand here too. `singular_values` are all of step 2, falling, and
     `gap` is that at the order taken. x0 (n,) is the state at the first sample of the (first) experiment, None where no data were read for

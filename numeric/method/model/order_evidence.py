@@ -64,7 +64,7 @@ class OrderRow:
 
 @dataclass(frozen=True, repr=False)
 class OrderEvidence(Shown):
-    """This is what the data say of the order of the model, where it was left open.
+    """What the data say of the order of the model, where it was left open.
 
     `rows` is a list of OrderRow, one an order; `best` is the order chosen, by Akaike's criterion [A74], and `least` to `most` are the
     orders that the data leave open: `least` is the least that is not refused at a level of 1 %, and `most` is `best`. More states than

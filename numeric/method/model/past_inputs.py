@@ -88,7 +88,7 @@ def gap_at(values: Array, floor: float, order: int) -> Gap:
 
 @dataclass(frozen=True, eq=False)
 class Range:
-    """This is what step 2 gives: A, C in units of the scaled outputs, the scale (p,), and the account of the order."""
+    """What step 2 gives: A, C in units of the scaled outputs, the scale (p,), and the account of the order."""
 
     A: Array
     C: Array

@@ -49,7 +49,7 @@ AMPLIFICATION = 1e6  # growth over the windows from which an ARX model is called
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ReducedModel(Identified, Shown):
-    """This is the model of order n that `arx_reduction` gives, with what it rests on, in the units of the data [W89].
+    """The model of order n that `arx_reduction` gives, with what it rests on, in the units of the data [W89].
 
     `model` has A of the shape (n, n), B (n, n_u), C (p, n) and D (p, n_u). `innovation_covariance` (p, p) is that of the one-step errors
     of the ARX model, `arx`, whose `disturbance(angles)` is the spectrum (M, p, p) of faults and noise together. `uncertainty` has the

@@ -46,7 +46,7 @@ CHUNK = 1024
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ResidualSignal(Shown):
-    """This is the residual r (N, p) of a model, in the units of y, with the initial state that it was taken from.
+    """The residual r (N, p) of a model, in the units of y, with the initial state that it was taken from.
 
     `store` holds r, and `x0` (n,) is the state at the first sample; `fitted` says whether it was fitted to this record. `covariance` (p, p)
     is that of r about zero, with fitted degrees of freedom taken off; `x0_covariance` (n, n) is zero where x0 was given. `observed` is the
@@ -108,7 +108,7 @@ class ResidualSignal(Shown):
 
 
 class HasModel(Protocol):
-    """This is what an identification returns: a result with its `model`."""
+    """What an identification returns: a result with its `model`."""
 
     @property
     def model(self) -> Any:

@@ -49,7 +49,7 @@ def triangular(*stacked: Array) -> Array:
 
 
 class SequentialQR:
-    """This is the running factor of the Hankel matrix whose rows are `rows`, an integer array (k, 2) of (lag, channel).
+    """The running factor of the Hankel matrix whose rows are `rows`, an integer array (k, 2) of (lag, channel).
 
     `append` takes the next samples of ONE experiment (T, channels); memory is the square of k and a little more plus one block of columns
     plus one piece.

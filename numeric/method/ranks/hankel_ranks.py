@@ -35,7 +35,7 @@ FLOOR_LIMIT = 2.0**-32
 
 @dataclass(frozen=True)
 class HankelRanks:
-    """These are the ranks of R_1 .. R_S, S = len(ranks), where `values[i]`, `thresholds[i]` and `margins[i]` belong to window i + 1."""
+    """The ranks of R_1 .. R_S, S = len(ranks), where `values[i]`, `thresholds[i]` and `margins[i]` belong to window i + 1."""
 
     values: tuple[Array, ...]
     ranks: tuple[int, ...]

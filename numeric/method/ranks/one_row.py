@@ -45,7 +45,7 @@ _COLOUR_FLOOR = 1e-3
 
 @dataclass(frozen=True)
 class WindowMoments:
-    """These are second moments of the window psi, by bands of frequencies.
+    """Second moments of the window psi, by bands of frequencies.
 
     `moments` (bands, p (degree+1), p (degree+1)) are real parts and sum to the time Gram of psi; `counts` (bands,) are real degrees of
     freedom a band and sum to `samples` = N - degree; `angles` (bands,) are the centres of the bands.
@@ -72,7 +72,7 @@ class WindowMoments:
 
 @dataclass(frozen=True)
 class FittedRow:
-    """This is a kernel row that was fitted.
+    """A kernel row that was fitted.
 
     `coefficients` (degree+1, p) have unit norm and make N(q) = sum_j coefficients[j] q^j; `level` is in nats; `noise_colour` is the monic
     autoregression (1, a_1, ..) of the noise; `flat` says whether the last step gained less than `FLAT` nats.

@@ -61,7 +61,7 @@ DIED_OUT = 1e-6
 
 @dataclass(frozen=True, repr=False)
 class FaultDimension(Shown):
-    """This is the number of faults `n_v` in a residual, None where it is undecided, with its `reason` and the evidence [G25].
+    """The number of faults `n_v` in a residual, None where it is undecided, with its `reason` and the evidence [G25].
 
     `regime` is "rounding" or "noise". `ranks`, `thresholds`, `margins` and `singular_values` (s p,) belong to `windows`, which count
     samples; `gaps[i]` belongs to s = windows[i], and `channel_scales` (p,) are the units of r. `levels` are what the kernel-row test saw,

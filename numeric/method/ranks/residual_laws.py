@@ -59,7 +59,7 @@ _SEED = 20250513
 
 @dataclass(frozen=True)
 class LawLevel:
-    """This is what the best law on `outputs` mixtures leaves: the least and largest level over some random mixtures, in nats, and the
+    """What the best law on `outputs` mixtures leaves: the least and largest level over some random mixtures, in nats, and the
     largest drop."""
 
     outputs: int

@@ -75,7 +75,7 @@ DEPENDENT = 1e-10
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FaultCount(Shown):
-    """This is the number of faults that `count_faults` finds, with what it rests on [W91].
+    """The number of faults that `count_faults` finds, with what it rests on [W91].
 
     `n_v` is None where it is undecided; `possible` are the numbers that remain; `reason` says why. `tests`: what was asked of k rows, by
     falling k; empty where there was no noise. `noise_power`, of shape (p,): what the rows leave of each output, in its own units, squared;

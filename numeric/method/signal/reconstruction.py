@@ -37,7 +37,7 @@ COMPARED = 64
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class Reconstruction(Solution, Shown):
-    """This is a fault signal v (N, n_v), kept in `store`, with x(k+1) = A x + F v and `simulated` = C x + G v.
+    """A fault signal v (N, n_v), kept in `store`, with x(k+1) = A x + F v and `simulated` = C x + G v.
 
     delay            samples until v(k) is seen, from a known x(0), or from an unknown one if such a delay exists; None where the system
                      is not left-invertible, so that v is not determined at all

@@ -20,7 +20,7 @@ PART = PIECE // 16  # samples whose energy is kept as one number
 
 @dataclass(frozen=True, eq=False)
 class ResidualSizes:
-    """This is how large a residual is, channel by channel and part by part.
+    """How large a residual is, channel by channel and part by part.
 
     `peak` and `norm` (p,) are the largest |r| and the root of the sum of squares of each channel, in its units; `energies` is the sum over
     channels of r^2 / norm^2 in each part of PART samples; `early_peak` and `early_norm` (p,) are the same as the first two over the samples

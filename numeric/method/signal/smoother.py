@@ -47,7 +47,7 @@ SETTLED = 1e-13  # relative change of a refinement at the level of rounding
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class Solution:
-    """This is what is known of a fault signal beside its values; the docstring of `Reconstruction` explains the fields one by one."""
+    """What is known of a fault signal beside its values; the docstring of `Reconstruction` explains the fields one by one."""
 
     delay: int | None
     trusted: tuple[int, int]
@@ -61,7 +61,7 @@ class Solution:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Stretch(Solution):
-    """This is one stretch of a solution: the signal v (N, m), the states x (N, n) of x(k+1) = A x + F v, and `simulated` = C x + G v (N,
+    """One stretch of a solution: the signal v (N, m), the states x (N, n) of x(k+1) = A x + F v, and `simulated` = C x + G v (N,
     p)."""
 
     v: Array

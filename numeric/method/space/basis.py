@@ -51,7 +51,7 @@ TINY = float(np.finfo(float).tiny)
 
 @dataclass(frozen=True)
 class KernelBasis:
-    """These are the rows of a kernel basis, how much noise they leave, and how sure they are.
+    """The rows of a kernel basis, how much noise they leave, and how sure they are.
 
     `rows` are k arrays (eta_i + 1, p) of unit norm with N_i(q) = sum_j rows[i][j] q^j, `level` is in nats, `noise_colour` is the monic
     autoregression of the noise, `spectrum` (bands,) is the phi that follows from it, of mean logarithm zero, `within` is as it was given,

@@ -220,7 +220,7 @@ def _mixes(p: int, faults: int) -> list[Array]:
 
 @dataclass(frozen=True)
 class _Course:
-    """This is the course over the degrees 0, 1, ..: the level of the best row of a mix, and the row (degree + 1, p) in all outputs."""
+    """The course over the degrees 0, 1, ..: the level of the best row of a mix, and the row (degree + 1, p) in all outputs."""
 
     levels: list[float]
     rows: list[Array]

@@ -119,7 +119,7 @@ class SpaceUncertainty(Shown):
 
 @dataclass(frozen=True, repr=False)
 class FaultSpaceEstimate(Shown):
-    """These are the columns [f; g] that explain no more than the residual shows.
+    """The columns [f; g] that explain no more than the residual shows.
 
     basis            (n + p, n_z), orthonormal columns
     n_z              its columns, n_v + zeta for a left-invertible fault system; where `decided` is False the likeliest

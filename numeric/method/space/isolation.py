@@ -51,7 +51,7 @@ MOST_SETS, MOST_TRIED = 12, 4000
 
 
 class Matrices(Protocol):
-    """This is a model: A (n, n), B (n, n_u), C (p, n), D (p, n_u)."""
+    """A model: A (n, n), B (n, n_u), C (p, n), D (p, n_u)."""
 
     @property
     def A(self) -> Array:
@@ -71,7 +71,7 @@ class Matrices(Protocol):
 
 
 class Identified(Protocol):
-    """This is the result of an identification, with its `model`; a ReducedModel has its `uncertainty` too."""
+    """The result of an identification, with its `model`; a ReducedModel has its `uncertainty` too."""
 
     @property
     def model(self) -> Any:

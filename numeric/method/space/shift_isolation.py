@@ -139,7 +139,7 @@ class ShiftIsolation(Shown):
 
 @dataclass(frozen=True)
 class _Law:
-    """This is the law of a statistic T: Hotelling's of `freedom` degrees, chi-squared where that is None."""
+    """The law of a statistic T: Hotelling's of `freedom` degrees, chi-squared where that is None."""
 
     freedom: int | None
 

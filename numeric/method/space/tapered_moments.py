@@ -37,7 +37,7 @@ HALF_THE_DIGITS = float(np.sqrt(np.finfo(np.float64).eps))
 
 @dataclass(frozen=True)
 class CrossMoments:
-    """These are cross-spectral moments of the window psi.
+    """Cross-spectral moments of the window psi.
 
     `moments` (bands, p (degree+1), p (degree+1)) are those of psi psi*, whose sum over bands has the mean square of psi as real part;
     `weights` (bands,) are the shares of the bands and sum to one; `angles` (bands,) are their centres in radians a sample.

@@ -66,7 +66,7 @@ FINE = 256  # samples at which the ratio is looked at in each step of closing in
 
 @dataclass(frozen=True, eq=False)
 class Scan:
-    """This is what a stretch of a residual says of a change. Part i has the samples `edges[i]` to `edges[i + 1]` - 1, the first of
+    """What a stretch of a residual says of a change. Part i has the samples `edges[i]` to `edges[i + 1]` - 1, the first of
     which `rows[i]` (L, q), [1, r(k-1), .., r(k-lags), r(k)] each, of which the columns `kept` are looked at; `open` are the
     numbers of the edges at which a change is looked for, `ratios` the scaled ratios there, and `p_value` the chance of a
     largest one as large without a change."""

@@ -69,7 +69,7 @@ def _visible(deviation: float, bound: float) -> float:
 
 
 class HealthySpectrum:
-    """This is the spectrum of the healthy innovations in bands of `width` frequencies, which gives it twice as many degrees of freedom."""
+    """The spectrum of the healthy innovations in bands of `width` frequencies, which gives it twice as many degrees of freedom."""
 
     def __init__(self, learnt: Predictor) -> None:
         self.learnt = learnt

@@ -77,7 +77,7 @@ class Onset:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FaultOnset(Shown):
-    """These are the changes of a residual r (N, p), in the order of time.
+    """The changes of a residual r (N, p), in the order of time.
 
     onsets      the changes; none where the residual is alike from the first sample to the last, as `reason` says
     samples     N
@@ -151,7 +151,7 @@ class FaultOnset(Shown):
 
 @dataclass(frozen=True, eq=False)
 class _Stretch:
-    """These are samples first .. last - 1: what reads them in their units, the outputs that move there, the lags, and the scan, which is
+    """Samples first .. last - 1: what reads them in their units, the outputs that move there, the lags, and the scan, which is
     None where nothing moves or the samples are too few."""
 
     first: int

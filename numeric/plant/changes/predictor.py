@@ -39,7 +39,7 @@ LEARNT_FROM = 1 << 14
 
 @dataclass(frozen=True, eq=False)
 class Stretch:
-    """These are consecutive samples: the residual r (M, p), the outputs y (M, p), the inputs u (M, n_u) and the responses of the model to
+    """Consecutive samples: the residual r (M, p), the outputs y (M, p), the inputs u (M, n_u) and the responses of the model to
     each input alone, (n_u, M, p), None where there is no stable model. `fitted` parameters of the model for each output were fitted to
     them. `gain_errors` (K, p, n_u) are those of the static gain of a model that was fitted to others, where they are known."""
 
@@ -61,7 +61,7 @@ class Stretch:
 
 @dataclass(frozen=True, eq=False)
 class Predictor:
-    """This is a predictor of the healthy residual, with what its errors are worth.
+    """A predictor of the healthy residual, with what its errors are worth.
 
     `moving` numbers the n_u inputs that are not constant. `scales` (p,) and `input_scales` (n_u,) are the units, `constant` (p,), `steps`
     (lags, p, p + n_u), `direct` (p, n_u) the coefficients, `regressors` X0 (count, q) are in the order constant, lags, inputs now, and

@@ -23,7 +23,7 @@ NOT_SHOWN = 6  # channels of a kind that is undecided or not seen, named on one 
 
 @dataclass(frozen=True)
 class Change:
-    """This is a row: a `kind` of change in the output or input `channel`.
+    """A row: a `kind` of change in the output or input `channel`.
 
     `seen` is None where it is undecided, and `reason` says why. `probability` is that of so much by chance in any row of the table (that
     of this row, times their number), `statistic` what it was read from. `size` is the estimate of the change in the `unit` of the row,
@@ -74,7 +74,7 @@ class Change:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Changes(Shown):
-    """This is what has changed in a record since its healthy part, in a row for each kind of change and channel.
+    """What has changed in a record since its healthy part, in a row for each kind of change and channel.
 
     `level` is the probability that any row is seen by chance where nothing has changed; `rows` are the tests, of `samples` = (before,
     tested) samples; `against` says what those before are. One cause may be seen in several rows: a gain that changes makes the residual

@@ -24,7 +24,7 @@ MEAN, DRIFT, GROWTH, LOSS, FREEZING, LINE, OUTPUT_GAIN, INPUT_GAIN = KINDS = (
 
 @dataclass(frozen=True)
 class Evidence:
-    """This is what one test says of one channel.
+    """What one test says of one channel.
 
     `chance` is the probability of so much by chance, not corrected for other tests, None where `reason` says why it cannot be had.
     `statistic` is what it was read from. `size` is the estimated change, in units of the output unless `unit` says another one, `sigmas`

@@ -29,7 +29,7 @@ MOST_NAMED = 4  # channels that a line names
 
 @dataclass(frozen=True)
 class Doubt:
-    """This is one reason to doubt, of `kind`, one of KINDS, in the channels of these names.
+    """One reason to doubt, of `kind`, one of KINDS, in the channels of these names.
 
     `evidence`, `effect` and `advice` are words: what was seen, what it does to the answer, and what to do. `chance` bounds the probability
     of evidence as strong where there is no reason for the doubt, and is None where the evidence is a plain fact of the record.
@@ -56,7 +56,7 @@ class Doubt:
 
 @dataclass(frozen=True, repr=False)
 class Doubts(Shown):
-    """These are the doubts that `doubts` found in a record.
+    """The doubts that `doubts` found in a record.
 
     `rows` is a list of Doubt, one a reason, and may be empty; iterating gives them. Each of the kinds of TESTED that stands in `asked` is
     raised in a clean record with a probability of DOUBT_LEVEL at most, and `unasked` says of the other kinds why they could not be asked.

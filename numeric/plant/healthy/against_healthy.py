@@ -65,7 +65,7 @@ halves are compared at all, and against the geometric mean, is judged with it (h
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FaultsAgainstHealthy(Shown):
-    """This is how many faults stand out of what the healthy record shows, with the evidence.
+    """How many faults stand out of what the healthy record shows, with the evidence.
 
     `n_v` is the count (None where it is undecided), and `reason` says why. `roots` and `thresholds` of shape (centres, p) belong to the
     `frequencies` (centres,) in cycles a sample, and `counts` (centres,) are the roots above. A fault of less than `visible` times its noise
@@ -138,7 +138,7 @@ class FaultsAgainstHealthy(Shown):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FaultDirection(Shown):
-    """This is the direction of one fault and its signal.
+    """The direction of one fault and its signal.
 
     `z` = [F; G] (n + p,) has unit norm, and F is empty without A and C. `signal` (N,) is zero before the first whitened sample and is
     shrunk at each frequency by the share that noise explains. `strength` is the mean of |w* x|^2 / (w* w), which is one for noise alone.

@@ -82,7 +82,7 @@ class Fold:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class HealthyReference(Shown):
-    """This is how a residual behaves without a fault; the head of the module explains it.
+    """How a residual behaves without a fault; the head of the module explains it.
 
     `scales` (p,) and `input_scales` (n_u,) are the units taken out of r and u. The predictor has `lags` lags and the `coefficients` (q, p),
     q = (p + n_u) lags + n_u; `root` (q, q) satisfies root' root = (X0' X0)^-1, and `samples` were predicted. The complex `covariances`

@@ -51,7 +51,7 @@ UNIT_ROOT = 20.7
 
 @dataclass(frozen=True, eq=False)
 class MeanReference:
-    """This is what the healthy record says about the mean of a residual.
+    """What the healthy record says about the mean of a residual.
 
     `coefficients` (1 + q, p), that of the constant first, belong to the predictor with `lags` lags, of r in units of `scales` (p,) and u in
     those of `input_scales` (n_u,). `root` satisfies root' root = (X0' X0)^-1, `still` (p, p) is I - sum A_j, `long_run` (p, p) is the
@@ -99,7 +99,7 @@ class MeanReference:
 
 @dataclass(frozen=True, eq=False)
 class MeanShift:
-    """This is the verdict on the mean of a residual, with its evidence.
+    """The verdict on the mean of a residual, with its evidence.
 
     `shifted` is None where it is undecided, and `reason` says why. `shift` (p,) is the estimate in units of r, and `deviations` (p,) are
     its standard deviations. `channels` numbers the outputs whose own shift is beyond chance. `statistic` is T^2, held against `threshold`

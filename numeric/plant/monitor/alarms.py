@@ -79,7 +79,7 @@ class Alarm(Shown):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Watched(Shown):
-    """This is what a monitor's `extend` saw, from its sample `first` on.
+    """What a monitor's `extend` saw, from its sample `first` on.
 
     `alarms` are those that began, `statistics` (N, 4) are in the order of the tests, and `innovations` (N, p) are uncorrelated and of
     deviation one without a fault; both are NaN at samples that no test could judge. Raises nothing. Source: [BN93].

@@ -58,7 +58,7 @@ class Units:
 
 @dataclass(frozen=True, eq=False)
 class Form:
-    """This is the innovation form: A (d, d), B (d, n_u), C (p, d), D (p, n_u), K (d, p), the constants `push` (d,) and `level` (p,).
+    """The innovation form: A (d, d), B (d, n_u), C (p, d), D (p, n_u), K (d, p), the constants `push` (d,) and `level` (p,).
 
     `covariance` (p, p) is that of a forecast's error and `unknown` (d, d) that of the states on the healthy record. The whitening has
     `lags` lags and `parameters` coefficients an output.
@@ -90,7 +90,7 @@ class Form:
 
 @dataclass(frozen=True, eq=False)
 class _Whitening:
-    """These are the coefficients (1 + lags (p + pushed) + pushed, p) of the regression of e_o, for `pushed` of the inputs, all or none."""
+    """The coefficients (1 + lags (p + pushed) + pushed, p) of the regression of e_o, for `pushed` of the inputs, all or none."""
 
     coefficients: Array
     covariance: Array
@@ -100,7 +100,7 @@ class _Whitening:
 
 @dataclass(frozen=True, eq=False)
 class Fitted:
-    """This is a `form`, and the `errors` (M, p) of its forecasts on the healthy record, uncorrelated and of deviation one.
+    """A `form`, and the `errors` (M, p) of its forecasts on the healthy record, uncorrelated and of deviation one.
 
     The errors of each quarter are by what the other three taught; `sizes` (M, p) are the same errors output by output, each over its
     deviation.
@@ -304,7 +304,7 @@ def _moments(model: StateSpaceModel, gain: Array, whitening: _Whitening, y: Arra
 
 
 class Predictor:
-    """This is the Kalman filter of a form [AM79]: it gives the innovations of samples y (p,) and u (n_u,), in the units of the data.
+    """The Kalman filter of a form [AM79]: it gives the innovations of samples y (p,) and u (n_u,), in the units of the data.
 
     The state is known up to a covariance P, at first that of the healthy record ten times as wide. An innovation then has the covariance
     S + C P C', and the gain is the optimal one; an output that is missing (NaN) or wild is left out of it. P fades as samples come, and

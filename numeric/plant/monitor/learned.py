@@ -37,7 +37,7 @@ MARGIN = 0.1  # of the range of an input, by which it may leave it
 
 @dataclass(frozen=True, eq=False)
 class Learned:
-    """This is the `form`, what the tests are (`settings`), and what the healthy record showed.
+    """The `form`, what the tests are (`settings`), and what the healthy record showed.
 
     `maxima` (blocks, 4) are the largest statistics of each block of the healthy `samples`, in the order of the tests. The inputs stay
     between `least` and `greatest` (n_u,) unless they are beyond what the record has shown; these are infinite where it shows nothing of

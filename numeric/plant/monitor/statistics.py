@@ -142,7 +142,7 @@ class Bank:
 
 
 class Latest:
-    """These are the `innovations` (memory, p) of the samples with these `numbers`, the latest last, of which `add` forgets the oldest."""
+    """The `innovations` (memory, p) of the samples with these `numbers`, the latest last, of which `add` forgets the oldest."""
 
     def __init__(self, numbers: NDArray[np.int_], innovations: Array) -> None:
         self._numbers, self._innovations, self._place = numbers, innovations, 0  # rings, which go on at the place

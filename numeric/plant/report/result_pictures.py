@@ -52,7 +52,7 @@ WIDE, SQUARE, TALL = (8.0, 4.6), (5.2, 5.2), (8.0, 6.4)  # inches
 
 
 def pictures(answer: Answer, folder: Path) -> list[str]:
-    """Draws what there is; without matplotlib the sentence that says so."""
+    """Draw what there is; without matplotlib the sentence that says so."""
     try:
         figure: Any = import_module("matplotlib.figure")
     except ImportError:

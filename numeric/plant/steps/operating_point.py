@@ -35,7 +35,7 @@ TESTED = 1 << 14  # samples of an experiment of which it is asked whether zero i
 
 @dataclass(frozen=True, eq=False)
 class OperatingPoint:
-    """This is the point that was taken off all channels.
+    """The point that was taken off all channels.
 
     `of` says what it is: "zero", or the means of the "healthy samples", of the "whole record", or of the "single experiments", each by
     itself. `reason` says why. `stated` says that the caller asked for it. `values` (k,), inputs before outputs, are zeros for zero, and

@@ -49,7 +49,7 @@ def reflections_error(width: int, rows: int) -> float:
 
 @dataclass(frozen=True)
 class BackwardError:
-    """These are Frobenius norms of E in scaled channels: `future` on Uf, `outputs` on Yf, and `turn` = |L_u^-1 E_u| for L_u of [Uf; Up]."""
+    """Frobenius norms of E in scaled channels: `future` on Uf, `outputs` on Yf, and `turn` = |L_u^-1 E_u| for L_u of [Uf; Up]."""
 
     future: float
     outputs: float
@@ -165,7 +165,7 @@ def _toeplitz_norm(model: StateSpaceModel, s: int) -> float:
 
 @dataclass(frozen=True, eq=False)
 class ModelError:
-    """These are bounds on |dA|, |dB|, |dC| and |dD| of `model`, all in scaled channels and the basis U; `range` is the bound on |D|."""
+    """Bounds on |dA|, |dB|, |dC| and |dD| of `model`, all in scaled channels and the basis U; `range` is the bound on |D|."""
 
     model: StateSpaceModel
     input_scale: Array
