@@ -208,8 +208,8 @@ class ModelError:
         A, B, C = self.model.A, self.model.B, self.model.C
         bounds = np.full(count, self.D)
         power = np.eye(self.model.n)
-        before, rest = [], []  # |(C + dC) A^k|, |(A + dA)^k (B + dB)| at most
-        powers: list[float] = []  # |A^k|
+        before, rest = list[float](), list[float]()  # |(C + dC) A^k|, |(A + dA)^k (B + dB)| at most
+        powers = list[float]()  # |A^k|
         for k in range(count - 1):
             powers.append(_norm(power))
             row, column = _norm(C @ power), _norm(power @ B)
