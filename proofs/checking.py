@@ -89,12 +89,12 @@ class CheckedFile(Shown):
 
     @property
     def result(self) -> str:
-        """This is the checker's word on the file."""
+        """The checker's word on the file."""
         return str(self.answer["result"])
 
     @property
     def title(self) -> str:
-        """This is the file and the result."""
+        """The file and the result."""
         return f"{quote_path(self.answer['file'])}: {self.result}"
 
     def sheet(self) -> list[tuple[str, str]]:

@@ -16,7 +16,7 @@ from .results import AttackRecord, certified, refuting, run_attacks, stale, word
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Runs the attacks that the arguments choose, prints how each ended, and returns the exit code."""
+    """Run the attacks that the arguments choose, print how each ended, and return the exit code."""
     parser = argparse.ArgumentParser(prog="python -m faultspace.proofs.adversary", description="Attacks on what is not proved in general.")
     parser.add_argument("--reading", metavar="ID", action="append", help="only attacks on this target, as claim.reading; may be repeated")
     parser.add_argument("--stale", action="store_true", help="only attacks that the file of --out has no record of, or one of other words")
@@ -60,14 +60,14 @@ def _progress(name: str, done: int, total: int) -> None:
 
 
 def _kept(path: Path, again: set[str]) -> list[AttackRecord]:
-    """Returns the records of the file that did not run now."""
+    """Return the records of the file that did not run now."""
     if not path.exists():
         return []
     return [record for record in json.loads(path.read_text(encoding="utf-8"))["attacks"] if record["attack"] not in again]
 
 
 def _exit_code(records: Sequence[AttackRecord]) -> int:
-    """Returns 0 where what is false, by the ledger, is refuted by one of its attacks, and what stands by none; else 1."""
+    """Return 0 where what is false, by the ledger, is refuted by one of its attacks, and what stands by none; else 1."""
     surprises = []
     for target in dict.fromkeys(record["target"] for record in records):
         found = any(refuting(record) for record in records if record["target"] == target)

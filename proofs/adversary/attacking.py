@@ -54,7 +54,7 @@ def attacking(
     known: Callable[[str], AttackRecord | None] = lambda name: None,
     on_record: Callable[[AttackRecord], None] = lambda record: None,
 ) -> Attacking:
-    """Returns the attacks on these claims, and those on every row where all claims are meant; effort "full" runs them now, but for those of
+    """Return the attacks on these claims, and those on every row where all claims are meant; effort "full" runs them now, but for those of
     which there is a `known` record, and hands over each record as it comes."""
     if effort != "full":
         return Attacking(None)
@@ -80,7 +80,7 @@ def looked_at_again(attacks: Attacking, targets: Sequence[str], jobs: int) -> At
 
 
 def of_reading(result: ReadingResult, claim: str, attacks: Attacking) -> ReadingResult:
-    """Returns the result with its attacks; its verdict gives way to a counterexample."""
+    """Return the result with its attacks; its verdict gives way to a counterexample."""
     from ..verdict.verdicts import Verdict  # which needs the records of this folder
 
     target = f"{claim}.{result.reading.id}"
@@ -96,7 +96,7 @@ def of_reading(result: ReadingResult, claim: str, attacks: Attacking) -> Reading
 
 
 def of_row(row: Row, attacks: Attacking) -> Row:
-    """Returns the row with its attacks; the verdict of a row without a single hypothesis gives way to a counterexample."""
+    """Return the row with its attacks; the verdict of a row without a single hypothesis gives way to a counterexample."""
     from ..verdict.verdicts import Verdict
 
     if len(row.dropped) != 1:
@@ -131,7 +131,7 @@ def _unfounded(target: str, theorems: Sequence[str], found: tuple[Attacked, ...]
 
 
 def _against(found: tuple[Attacked, ...]) -> str | None:
-    """Says what the attacks hold against the statement: a counterexample, or something stored that was not found again."""
+    """Say what the attacks hold against the statement: a counterexample, or something stored that was not found again."""
     for one in found:
         if one.refutes:
             return f"the adversary, {one.id}: {one.words}"

@@ -20,7 +20,7 @@ WITHOUT = "without "
 
 @cache
 def catalogue() -> tuple[Attack, ...]:
-    """Returns all attacks in the order of the files. Raises ValueError where two attacks have one id."""
+    """Return all attacks in the order of the files. Raises ValueError where two attacks have one id."""
     found = (*limit_attacks(), *pair_attacks(), *structure_attacks())
     if len({attack.id for attack in found}) < len(found):
         raise ValueError("two attacks have the same id")
@@ -28,12 +28,12 @@ def catalogue() -> tuple[Attack, ...]:
 
 
 def attacks_on(target: str) -> tuple[Attack, ...]:
-    """Returns the attacks on this reading ("claim.reading") or row ("without EXPERIMENT: HYPOTHESIS")."""
+    """Return the attacks on this reading ("claim.reading") or row ("without EXPERIMENT: HYPOTHESIS")."""
     return tuple(attack for attack in catalogue() if attack.target == target)
 
 
 def statement_of(target: str) -> str | None:
-    """Returns the statement with its hypotheses, or for a row the hypotheses of its experiment; None where the ledger has no such
+    """Return the statement with its hypotheses, or for a row the hypotheses of its experiment; None where the ledger has no such
     target."""
     if target.startswith(WITHOUT):
         experiment, _, dropped = target.removeprefix(WITHOUT).partition(": ")
@@ -48,7 +48,7 @@ def statement_of(target: str) -> str | None:
 
 
 def expected_of(target: str) -> str | None:
-    """Returns the verdict that the ledger expects of a target, or None."""
+    """Return the verdict that the ledger expects of a target, or None."""
     if target.startswith(WITHOUT):
         experiment, _, dropped = target.removeprefix(WITHOUT).partition(": ")
         return expected_without().get(experiment, {}).get(dropped)

@@ -92,7 +92,7 @@ def pursue(attack: Attack, *, seconds: float, seed: int) -> Trial:
 
 
 def value_at(attack: Attack, point: Sequence[float]) -> float:
-    """Returns the size of the quantity at a point."""
+    """Return the size of the quantity at a point."""
     return float(np.linalg.norm(np.atleast_1d(attack.quantity(np.array(point, dtype=np.float64)))))
 
 
@@ -124,7 +124,7 @@ def _cross(hunt: _Hunt) -> None:
 
 
 def exact_zero(hunt: _Hunt, zero: Floats) -> Iterator[Point]:
-    """Yields exact zeros on lines through simple points near a float zero; without a rational one, a pair of exact points of either sign is
+    """Yield exact zeros on lines through simple points near a float zero; without a rational one, a pair of exact points of either sign is
     kept."""
     attack, box = hunt.attack, hunt.attack.family.box
     exact = attack.exact
@@ -155,7 +155,7 @@ def exact_zero(hunt: _Hunt, zero: Floats) -> Iterator[Point]:
 
 
 def _ends(trace: Trace, point: Point, place: int, low: float, high: float) -> tuple[Fraction, Fraction] | None:
-    """Returns the first two neighbouring looks along a parameter between which the sign changes."""
+    """Return the first two neighbouring looks along a parameter between which the sign changes."""
     base = np.array([float(x) for x in point])
     before: tuple[Fraction, float] | None = None
     bottom, top = Fraction(low).limit_denominator(1000), Fraction(high).limit_denominator(1000)
@@ -170,7 +170,7 @@ def _ends(trace: Trace, point: Point, place: int, low: float, high: float) -> tu
 
 
 def _solved(hunt: _Hunt, end: Floats) -> Iterator[Point]:
-    """Yields simple points near the end, with the equations solved exactly for the parameters in which they are affine."""
+    """Yield simple points near the end, with the equations solved exactly for the parameters in which they are affine."""
     if not hunt.attack.blocks:
         return
     for point in simple(end, hunt.attack.family.box, NEAR):
@@ -185,7 +185,7 @@ def _solved(hunt: _Hunt, end: Floats) -> Iterator[Point]:
 
 
 def _decided(attack: Attack, point: Point) -> Witness | None:
-    """Decides a point exactly; one outside the family's domain (an unstable A, a singular covariance) is no counterexample."""
+    """Decide a point exactly; one outside the family's domain (an unstable A, a singular covariance) is no counterexample."""
     try:
         return attack.decide(point)
     except (InvalidInput, ZeroDivisionError):

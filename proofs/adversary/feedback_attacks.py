@@ -67,7 +67,7 @@ def _attack(
 
 
 def leading_gap(drawn: Drawn) -> Floats:
-    """Returns the entries of the bias and of P L L' O_s, and by how much the largest eigenvalue of P L L' P exceeds the least within the
+    """Return the entries of the bias and of P L L' O_s, and by how much the largest eigenvalue of P L L' P exceeds the least within the
     range."""
     found = float_limits(drawn)
     basis, _ = np.linalg.qr(found.observability)
@@ -118,7 +118,7 @@ def _share(drawn: Drawn) -> float:
 
 
 def _bias(family: Family, point: Point) -> list[Fraction]:
-    """Returns the n + p entries of B and D by output error less the true ones."""
+    """Return the n + p entries of B and D by output error less the true ones."""
     experiment = exact_experiment(family.at(point))
     system = experiment.system
     found = by_output_error(covariances(experiment), system.residual.A, system.residual.C)
@@ -128,18 +128,18 @@ def _bias(family: Family, point: Point) -> list[Fraction]:
 
 
 def _leaving(family: Family, point: Point) -> list[Fraction]:
-    """Returns the entries of P L L' O_s."""
+    """Return the entries of P L L' O_s."""
     L, W, outer = _parted(family, point)
     return _numbers(outer @ (L.transposed() @ W))
 
 
 def _outside(family: Family, point: Point) -> list[Fraction]:
-    """Returns the entries of P L."""
+    """Return the entries of P L."""
     return _numbers(_parted(family, point)[2])
 
 
 def _parted(family: Family, point: Point) -> tuple[Matrix, Matrix, Matrix]:
-    """Returns the limit L, O_s, and the part P L of the limit outside the range of O_s."""
+    """Return the limit L, O_s, and the part P L of the limit outside the range of O_s."""
     experiment = exact_experiment(family.at(point))
     L = past_input_limit(experiment, window_covariances(experiment, covariances(experiment))).matrix
     W = observability_matrix(experiment.system.residual, experiment.s)
@@ -151,7 +151,7 @@ def _numbers(matrix: Matrix) -> list[Fraction]:
 
 
 def _decide(family: Family, fails: Fails, note: str, point: Point) -> Witness | None:
-    """Returns a witness where the fault is seen, what every reading asks for is met, and `fails` holds."""
+    """Return a witness where the fault is seen, what every reading asks for is met, and `fails` holds."""
     experiment = exact_experiment(family.at(point))
     evidence = examine_experiment("adversary", experiment)
     residual = experiment.system.residual

@@ -58,7 +58,7 @@ class FloatLimits:
 
 
 def exact_experiment(drawn: Drawn) -> Experiment:
-    """Returns the experiment in exact arithmetic. Raises InvalidInput where A or a filter is not stable."""
+    """Return the experiment in exact arithmetic. Raises InvalidInput where A or a filter is not stable."""
     matrices = {name: _texts(getattr(drawn, name)) for name in "AFCGBD"}
     u = {"num": [_texts(tap) for tap in drawn.u_taps], "den": [str(Fraction(x)) for x in drawn.u_den]}
     v = {"num": [_texts(tap) for tap in drawn.v_taps], "den": [str(Fraction(x)) for x in drawn.v_den]}
@@ -66,7 +66,7 @@ def exact_experiment(drawn: Drawn) -> Experiment:
 
 
 def float_limits(drawn: Drawn) -> FloatLimits:
-    """Returns the limits of an experiment in floats. Raises numpy.linalg.LinAlgError where the covariance of the future inputs is
+    """Return the limits of an experiment in floats. Raises numpy.linalg.LinAlgError where the covariance of the future inputs is
     singular."""
     A, F, C, G, B, D = (np.array(getattr(drawn, name), dtype=np.float64) for name in "AFCGBD")
     n, nu, s, past = len(A), B.shape[1], drawn.s, drawn.past
@@ -83,7 +83,7 @@ def float_limits(drawn: Drawn) -> FloatLimits:
     P = _stationary(Phi, Gamma @ Gamma.T)
 
     def windows(one: tuple[Floats, Floats], two: tuple[Floats, Floats], rows: range, columns: range) -> Floats:
-        """Returns Cov(one(k + i), two(k + j)) in blocks."""
+        """Return Cov(one(k + i), two(k + j)) in blocks."""
         reach = max(rows[-1] - columns[0], columns[-1] - rows[0])
         ahead, behind = _sequence(Phi, Gamma, P, one, two, reach), _sequence(Phi, Gamma, P, two, one, reach)
         return np.vstack([np.hstack([ahead[i - j] if i >= j else behind[j - i].T for j in columns]) for i in rows])
@@ -104,13 +104,13 @@ def float_limits(drawn: Drawn) -> FloatLimits:
 
 
 def determinant(M: Floats) -> float:
-    """Returns det M (n x n) against the product of the lengths of its rows, which bounds it: from -1 to 1."""
+    """Return det M (n x n) against the product of the lengths of its rows, which bounds it: from -1 to 1."""
     lengths = float(np.prod(np.linalg.norm(M, axis=1)))
     return float(np.linalg.det(M)) / lengths if lengths > 0 else 0.0
 
 
 def outside(L: Floats, observability: Floats) -> float:
-    """Returns the share of L outside the range of O_s, in the Frobenius norm: from 0 to 1."""
+    """Return the share of L outside the range of O_s, in the Frobenius norm: from 0 to 1."""
     basis, values, _ = np.linalg.svd(observability, full_matrices=False)
     basis = basis[:, values > 1e-9 * values[0]]
     total = float(np.linalg.norm(L))
@@ -118,7 +118,7 @@ def outside(L: Floats, observability: Floats) -> float:
 
 
 def _line(taps: Sequence[Table], den: Sequence[Any]) -> tuple[Floats, Floats, Floats, Floats]:
-    """Returns the delay line of one filter: how it moves, how e enters it, how the signal is read from it, and e's direct way into the
+    """Return the delay line of one filter: how it moves, how e enters it, how the signal is read from it, and e's direct way into the
     signal."""
     numerator = [np.array(tap, dtype=np.float64) for tap in taps]
     denominator = np.array([float(x) for x in den])
@@ -147,7 +147,7 @@ def _stationary(Phi: Floats, source: Floats) -> Floats:
 
 
 def _sequence(Phi: Floats, Gamma: Floats, P: Floats, one: tuple[Floats, Floats], two: tuple[Floats, Floats], most: int) -> list[Floats]:
-    """Returns Cov(one(k + l), two(k)) for l = 0..most."""
+    """Return Cov(one(k + l), two(k)) for l = 0..most."""
     result = [one[0] @ P @ two[0].T + one[1] @ two[1].T]
     reached = Phi @ P @ two[0].T + Gamma @ two[1].T
     for _ in range(most):
@@ -161,7 +161,7 @@ def _texts(rows: Table) -> list[list[str]]:
 
 
 def input_bias(drawn: Drawn) -> float:
-    """Returns how far MOESP's regression with the true A, C takes B, D from the truth, against their size and that of the fault's
+    """Return how far MOESP's regression with the true A, C takes B, D from the truth, against their size and that of the fault's
     columns."""
     A, F, C, G, B, D = (np.array(getattr(drawn, name), dtype=np.float64) for name in "AFCGBD")
     found = float_limits(drawn)

@@ -36,7 +36,7 @@ class Trace:
     signs: dict[bool, list[tuple[float, Floats]]] = field(default_factory=lambda: {True: [], False: []})
 
     def vector(self, point: Floats) -> Floats:
-        """Returns the value at this point as a vector, and remembers it."""
+        """Return the value at this point as a vector, and remembers it."""
         self.evaluations += 1
         try:
             value = np.atleast_1d(np.asarray(self.quantity(point), dtype=np.float64))
@@ -58,12 +58,12 @@ class Trace:
         return value
 
     def number(self, point: Floats) -> float:
-        """Returns the value at this point as a number, and remembers it."""
+        """Return the value at this point as a number, and remembers it."""
         return float(self.vector(point)[0])
 
 
 def draw_starts(box: Sequence[tuple[float, float]], count: int, rng: np.random.Generator) -> Iterator[Floats]:
-    """Yields `count` points inside the box, every second of them with some coordinates degenerate."""
+    """Yield `count` points inside the box, every second of them with some coordinates degenerate."""
     low, high = np.array([b[0] for b in box]), np.array([b[1] for b in box])
     for i in range(count):
         point = rng.uniform(low, high)
@@ -75,7 +75,7 @@ def draw_starts(box: Sequence[tuple[float, float]], count: int, rng: np.random.G
 
 
 def descend(trace: Trace, start: Floats, box: Sequence[tuple[float, float]], *, steps: int, signed: bool) -> Floats:
-    """Goes downhill from the start: signed, past zero to the other side, where it stops; else to a common zero by least squares."""
+    """Go downhill from the start: signed, past zero to the other side, where it stops; else to a common zero by least squares."""
     from scipy.optimize import least_squares, minimize  # here and below: a run of `verify` follows nothing
 
     if not signed:
@@ -103,7 +103,7 @@ def descend(trace: Trace, start: Floats, box: Sequence[tuple[float, float]], *, 
 
 
 def crossings(trace: Trace) -> Iterator[Floats]:
-    """Yields zeros on the segments between points of different sign, the closest to zero first."""
+    """Yield zeros on the segments between points of different sign, the closest to zero first."""
     from scipy.optimize import brentq
 
     positive, negative = (sorted(trace.signs[side], key=lambda item: item[0])[:KEPT] for side in (True, False))
@@ -119,7 +119,7 @@ def crossings(trace: Trace) -> Iterator[Floats]:
 
 
 def outward(trace: Trace, start: Floats, box: Sequence[tuple[float, float]], *, steps: int) -> None:
-    """Goes uphill in absolute value."""
+    """Go uphill in absolute value."""
     from scipy.optimize import minimize
 
     minimize(lambda point: -abs(trace.number(point)), start, method="Nelder-Mead", bounds=list(box), options={"maxfev": steps})

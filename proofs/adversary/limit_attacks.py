@@ -32,7 +32,7 @@ Fails = Callable[[LimitEvidence], bool]
 
 
 def decided_by(at: At, fails: Fails) -> Callable[[Point], Witness | None]:
-    """Returns the exact decision: the experiment at a point, its limits certified, and a witness where they fail the statement."""
+    """Return the exact decision: the experiment at a point, its limits certified, and a witness where they fail the statement."""
 
     def decide(point: Point) -> Witness | None:
         experiment = exact_experiment(at(point))
@@ -45,7 +45,7 @@ def decided_by(at: At, fails: Fails) -> Callable[[Point], Witness | None]:
 
 
 def describe(drawn: Drawn, evidence: LimitEvidence) -> str:
-    """Returns the experiment in words, for a reader."""
+    """Return the experiment in words, for a reader."""
     e = evidence.experiment
     u, v = e.u_filter.to_json(), e.v_filter.to_json()
     rank = f"limit of rank {evidence.limit_rank}, n = {e.system.residual.n}"
@@ -53,7 +53,7 @@ def describe(drawn: Drawn, evidence: LimitEvidence) -> str:
 
 
 def exact_determinant(at: At) -> Callable[[Point], Fraction]:
-    """Returns a function of a point: det M of the limit O_s M, exactly, for past nu = n."""
+    """Return a function of a point: det M of the limit O_s M, exactly, for past nu = n."""
 
     def value(point: Point) -> Fraction:
         experiment = exact_experiment(at(point))
@@ -68,7 +68,7 @@ def exact_determinant(at: At) -> Callable[[Point], Fraction]:
 
 
 def chain(poles: Sequence[Any]) -> list[list[Any]]:
-    """Returns a companion matrix with these poles, repeated or not: (A, e_1) is controllable."""
+    """Return a companion matrix with these poles, repeated or not: (A, e_1) is controllable."""
     coefficients: list[Any] = [1]
     for pole in poles:
         coefficients = [
@@ -80,7 +80,7 @@ def chain(poles: Sequence[Any]) -> list[list[Any]]:
 
 
 def chained(poles: Sequence[Any], s: int, past: int, u: Shaped, fault: Sequence[Any]) -> Drawn:
-    """Returns an experiment on the companion matrix of these poles: C = I, B = e_1, and the fault enters the last state, with white noise
+    """Return an experiment on the companion matrix of these poles: C = I, B = e_1, and the fault enters the last state, with white noise
     of its own through the taps `fault`."""
     n = len(poles)
     return Drawn(
@@ -101,7 +101,7 @@ def chained(poles: Sequence[Any], s: int, past: int, u: Shaped, fault: Sequence[
 def shaped_family(
     n: int, s: int, past: int, reflections: int, tail: int, *, repeated: bool = False, fault: Sequence[Any] = ([[0, 1]],), words: str = ""
 ) -> Family:
-    """Returns a family of `chained` experiments. The parameters are n poles (one where they are repeated), the reflection coefficients of
+    """Return a family of `chained` experiments. The parameters are n poles (one where they are repeated), the reflection coefficients of
     u, then the gain and the zeros of the rest of u."""
     count = 1 if repeated else n
     box = [POLE] * count + [REFLECTION] * reflections + [REFLECTION] * (tail + 1 if tail else 0)
@@ -118,7 +118,7 @@ def shaped_family(
 
 
 def moving_average_family(n: int, s: int, past: int, order: int) -> Family:
-    """Returns a family of `chained` experiments. The parameters are one pole, taken n times, and the taps of u beyond the first."""
+    """Return a family of `chained` experiments. The parameters are one pole, taken n times, and the taps of u beyond the first."""
 
     def at(point: Sequence[Any]) -> Drawn:
         return chained([point[0]] * n, s, past, Shaped((1, *point[1:]), (1,)), ([[0, 1]],))

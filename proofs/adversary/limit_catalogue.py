@@ -28,7 +28,7 @@ COLOURED = ([[0, 1]], [[0, 0]], [[0, 1]])
 
 
 def limit_attacks() -> Iterator[Attack]:
-    """Yields the attacks in the order of the ledger."""
+    """Yield the attacks in the order of the ledger."""
     yield from _refuted()
     yield from feedback_attacks()
 
@@ -48,7 +48,7 @@ def on_the_range(target: str, family: Family, fails: Fails, name: str) -> Attack
 
 
 def on_containment(target: str, family: Family, fails: Fails, name: str, *, past_outputs: bool = False) -> Attack:
-    """Returns an attack that looks for a share of the limit outside the range of O_s."""
+    """Return an attack that looks for a share of the limit outside the range of O_s."""
 
     def quantity(point: Floats) -> float:
         found = float_limits(family.at(point))
@@ -59,12 +59,12 @@ def on_containment(target: str, family: Family, fails: Fails, name: str, *, past
 
 
 def on_inputs(target: str, family: Family, fails: Fails, name: str) -> Attack:
-    """Returns an attack that looks for a bias of B or D."""
+    """Return an attack that looks for a bias of B or D."""
     return Attack(target, name, Aim.NONZERO, BIAS, family, lambda x: input_bias(family.at(x)), decided_by(family.at, fails), starts=8)
 
 
 def _refuted() -> Iterator[Attack]:
-    """Yields attacks on statements that are false, and are found to be so: they show that the adversary can refute."""
+    """Yield attacks on statements that are false, and are found to be so: they show that the adversary can refute."""
     two_poles, double_pole = shaped_family(2, 2, 2, 3, 1), shaped_family(2, 2, 2, 3, 1, repeated=True)
     longer, averaged = shaped_family(2, 3, 2, 4, 1, repeated=True), moving_average_family(2, 2, 2, 4)
     yield on_the_range("proposition-1.two-sided-range", two_poles, not_whole, "two poles")
@@ -106,12 +106,12 @@ def _refuted() -> Iterator[Attack]:
 
 
 def not_whole(d: LimitEvidence) -> bool:
-    """Whether every hypothesis of "all of the range" is met, and it is not."""
+    """Return whether every hypothesis of "all of the range" is met, and it is not."""
     return d.uncorrelated and _regular(d) and not d.equal
 
 
 def not_right(d: LimitEvidence) -> bool:
-    """Whether the same hypotheses are met, and the range, B or D comes out wrong."""
+    """Return whether the same hypotheses are met, and the range, B or D comes out wrong."""
     return d.uncorrelated and _regular(d) and not (d.equal and d.inputs_right)
 
 

@@ -31,7 +31,7 @@ from .witnesses import Found, confirmed
 
 
 def pair_attacks() -> Iterator[Attack]:
-    """Yields the attacks on statements that are false; those that stand are attacked beside single systems."""
+    """Yield the attacks on statements that are false; those that stand are attacked beside single systems."""
     tall = free_family(1, 2, 1)
     for target in ("theorem-1.n-samples", "theorem-1.n-samples-same-a-c"):
         yield from on_strata(target, "one state", tall, [feedthrough], _late_difference)
@@ -46,14 +46,14 @@ def pair_attacks() -> Iterator[Attack]:
 
 
 def pair_family() -> Family:
-    """Returns a family of systems with n = 1, p = m = 2 and of P: Z is everything, b = e_1, a = (A; C), and P is 3 x 2, by columns."""
+    """Return a family of systems with n = 1, p = m = 2 and of P: Z is everything, b = e_1, a = (A; C), and P is 3 x 2, by columns."""
     system = free_family(1, 2, 2)
     words = f"{system.words}, and P of 3 x 2 entries for Z = K^3"
     return Family(words, (*system.box, *[ENTRY] * 6), lambda point: (system.at(point[:9]), [list(point[9:12]), list(point[12:15])]))
 
 
 def driven_family(samples: int, *, idle: bool) -> Family:
-    """Returns a family with n = m = 1 and p = 2; F = 0 and x(0) = 0 where it is idle."""
+    """Return a family with n = m = 1 and p = 2; F = 0 and x(0) = 0 where it is idle."""
     system = free_family(1, 2, 1)
     count = len(system.box)
 
@@ -72,7 +72,7 @@ def _bad_pair() -> Attack:
     family = pair_family()
 
     def numbers(point: Any) -> list[Any]:
-        """Returns D(0; P) and D(1; P) - D(0; P): D is of degree one in q."""
+        """Return D(0; P) and D(1; P) - D(0; P): D is of degree one in q."""
         tables, P = family.at(point)
         column = [tables.A[0][0], tables.C[0][0], tables.C[1][0]]
         at_zero = determinant([*P, [-x for x in column]])
@@ -103,7 +103,7 @@ def _bad_pair() -> Attack:
 
 
 def _excitation_at_s(target: str) -> Attack:
-    """Returns an attack that looks for [X; V_1] of full row rank and [X; V_2], 3 x 3, singular."""
+    """Return an attack that looks for [X; V_1] of full row rank and [X; V_2], 3 x 3, singular."""
     family = driven_family(4, idle=False)
 
     def square(point: Any) -> list[list[Any]]:
@@ -135,7 +135,7 @@ def _excitation_at_s(target: str) -> Attack:
 
 
 def _excitation_necessary() -> Attack:
-    """Returns an attack that looks for a right gap while [X; V_2] is of rank 2 of 3: a state is never excited."""
+    """Return an attack that looks for a right gap while [X; V_2] is of rank 2 of 3: a state is never excited."""
     family = driven_family(6, idle=True)
 
     def quantity(point: Floats) -> float:
@@ -151,7 +151,7 @@ def _excitation_necessary() -> Attack:
 
 
 def _on_data(family: Family, fails: Callable[[int, int, int], bool], s: int) -> Callable[[Point], Witness | None]:
-    """Returns a decision by `fails` of rank [X; V_s], rank [X; V_(s+1)] and rank R_(s+1) - rank R_s, for an observable system inverted with
+    """Return a decision by `fails` of rank [X; V_s], rank [X; V_(s+1)] and rank R_(s+1) - rank R_s, for an observable system inverted with
     delay s at most."""
 
     def decide(point: Point) -> Witness | None:
@@ -174,7 +174,7 @@ def _on_data(family: Family, fails: Callable[[int, int, int], bool], s: int) -> 
 
 
 def _alternatives(system: ResidualSystem, window: int) -> Iterator[tuple[KernelRepresentation, KernelRepresentation]]:
-    """Yields the system and a pair (Fhat P, Ghat P) at a window, for each P of small entries."""
+    """Yield the system and a pair (Fhat P, Ghat P) at a window, for each P of small entries."""
     kernel = kernel_representation(system)
     space = fault_space(kernel, window)
     for entries in product((0, 1, -1), repeat=space.dimension * system.m):
@@ -189,7 +189,7 @@ def _regular(system: ResidualSystem) -> bool:
 
 
 def _late_difference(system: ResidualSystem) -> Found | None:
-    """Finds a system with the same (A, C) that agrees on n samples and differs later; both are observable, controllable and
+    """Find a system with the same (A, C) that agrees on n samples and differs later; both are observable, controllable and
     left-invertible."""
     if not _regular(system):
         return None
@@ -202,7 +202,7 @@ def _late_difference(system: ResidualSystem) -> Found | None:
 
 
 def _other_behaviour(system: ResidualSystem) -> Found | None:
-    """Finds a pair taken at s = n, of normal rank m, that is not equivalent."""
+    """Find a pair taken at s = n, of normal rank m, that is not equivalent."""
     if not _regular(system):
         return None
     for kernel, other in _alternatives(system, system.n):
@@ -214,12 +214,12 @@ def _other_behaviour(system: ResidualSystem) -> Found | None:
 
 
 def _other_form(system: ResidualSystem) -> Found | None:
-    """Finds the same outputs made by other (A, C), with another Z."""
+    """Find the same outputs made by other (A, C), with another Z."""
     return _by_feedback(system, lambda kernel, other: fault_space(kernel).basis != fault_space(other).basis)
 
 
 def _other_dynamics(system: ResidualSystem) -> Found | None:
-    """Finds the same outputs made by an A with other eigenvalues."""
+    """Find the same outputs made by an A with other eigenvalues."""
     return _by_feedback(system, lambda kernel, other: kernel.system.A != other.system.A) if system.n == 1 else None
 
 

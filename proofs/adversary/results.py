@@ -59,7 +59,7 @@ def run_attacks(
 
 
 def write(records: Sequence[AttackRecord], path: Path) -> None:
-    """Writes the file, in the order of the catalogue."""
+    """Write the file, in the order of the catalogue."""
     order = {attack.id: place for place, attack in enumerate(catalogue())}
     kept = sorted((record for record in records if record["attack"] in order), key=lambda record: order[record["attack"]])
     file = {"format": FORMAT, "sha256": _digest_of(kept), "attacks": kept}
@@ -68,7 +68,7 @@ def write(records: Sequence[AttackRecord], path: Path) -> None:
 
 @cache
 def stored() -> tuple[AttackRecord, ...]:
-    """Returns the records of the package's file; each has under "whole" whether the file has the SHA-256 that it tells."""
+    """Return the records of the package's file; each has under "whole" whether the file has the SHA-256 that it tells."""
     file = json.loads(resources.files(__package__).joinpath(FILE).read_text(encoding="utf-8"))
     whole = file.get("sha256") == _digest_of(file["attacks"])
     return tuple({**record, "whole": whole} for record in file["attacks"])
@@ -90,15 +90,16 @@ def stale(attack: Attack, records: Sequence[AttackRecord]) -> bool:
 
 
 def checked_again(target: str, records: Sequence[AttackRecord] | None = None) -> tuple[Attacked, ...]:
-    """Returns the records on a target (None: of the package's file), each checked again."""
+    """Return the records on a target (None: of the package's file), each checked again."""
     known = {attack.id: attack for attack in attacks_on(target)}
     here = [record for record in (stored() if records is None else records) if record["target"] == target]
     return tuple(_attacked(record, known.get(record["attack"])) for record in here)
 
 
 def certified(record: AttackRecord) -> AttackRecord:
-    """Returns the record with words and certificates of its counterexample as they are made now, which is decided again at the stored point; the
-    record as it is where it has none, where its attack is gone, or where the point refutes nothing, which `checked_again` then says."""
+    """Return the record with words and certificates of its counterexample as they are made now, which is decided again at the stored
+    point; the record as it is where it has none, where its attack is gone, or where the point refutes nothing, which `checked_again` then
+    says."""
     attack, witness = next((one for one in catalogue() if one.id == record["attack"]), None), record["witness"]
     if attack is None or witness is None:
         return record
@@ -109,7 +110,7 @@ def certified(record: AttackRecord) -> AttackRecord:
 
 
 def words_of(record: AttackRecord) -> str:
-    """Tells a record in a sentence or two."""
+    """Tell a record in a sentence or two."""
     tried = f"{record['starts']} starts, {record['evaluations']} values, {record['decided']} points decided exactly, "
     tried += f"{record['seconds']:.0f} s of one processor, {record['date']}"
     if record["outcome"] == COUNTEREXAMPLE:
@@ -128,7 +129,7 @@ def words_of(record: AttackRecord) -> str:
 
 
 def _run(place: int, seconds: float, seed: int) -> AttackRecord:
-    """Runs the attack at this place of the catalogue."""
+    """Run the attack at this place of the catalogue."""
     return _record(pursue(catalogue()[place], seconds=seconds, seed=seed), seed)
 
 

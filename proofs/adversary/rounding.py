@@ -26,7 +26,7 @@ DENOMINATORS = (1, 2, 3, 4, 6, 8, 12, 20, 32)
 
 
 def simple(point: Floats, box: Sequence[tuple[float, float]], denominators: Sequence[int] = DENOMINATORS) -> Iterator[Point]:
-    """Yields the nearest points with small denominators inside the box, each once."""
+    """Yield the nearest points with small denominators inside the box, each once."""
     seen = set()
     for bottom in denominators:
         rounded = tuple(
@@ -39,12 +39,12 @@ def simple(point: Floats, box: Sequence[tuple[float, float]], denominators: Sequ
 
 
 def moved(point: Point, place: int, value: Fraction) -> Point:
-    """Returns the point with one coordinate replaced."""
+    """Return the point with one coordinate replaced."""
     return (*point[:place], value, *point[place + 1 :])
 
 
 def rational_roots(value: Callable[[Fraction], Fraction], low: Fraction, high: Fraction, *, most: int = 16) -> tuple[Fraction, ...] | None:
-    """Returns the rational zeros in (low, high) of a rational function; None where its degrees are too large for `most` values."""
+    """Return the rational zeros in (low, high) of a rational function; None where its degrees are too large for `most` values."""
     xs: list[fmpq] = []
     ys: list[fmpq] = []
     for count in (6, 10, most):
@@ -60,7 +60,7 @@ def rational_roots(value: Callable[[Fraction], Fraction], low: Fraction, high: F
 
 
 def _numerator(xs: Sequence[fmpq], ys: Sequence[fmpq]) -> fmpq_poly | None:
-    """Returns the numerator of the rational function of least degree with these values; None where it uses up all of them."""
+    """Return the numerator of the rational function of least degree with these values; None where it uses up all of them."""
     modulus, interpolant = fmpq_poly([1]), fmpq_poly([0])
     for x, y in zip(xs, ys, strict=True):
         interpolant += modulus * ((y - interpolant(x)) / modulus(x))
@@ -89,7 +89,7 @@ def _roots(polynomial: fmpq_poly) -> list[Fraction]:
 
 
 def solve_affine(equations: Callable[[Point], Sequence[Fraction]], point: Point, places: Sequence[int]) -> Point | None:
-    """Returns the nearest point with only these coordinates changed where the equations vanish; None where they are not affine, or
+    """Return the nearest point with only these coordinates changed where the equations vanish; None where they are not affine, or
     contradict."""
     constant = list(equations(point))
     slopes = [[a - b for a, b in zip(equations(moved(point, i, point[i] + 1)), constant, strict=True)] for i in places]
@@ -104,7 +104,7 @@ def solve_affine(equations: Callable[[Point], Sequence[Fraction]], point: Point,
 
 
 def bracket(value: Callable[[Fraction], Fraction], low: Fraction, high: Fraction) -> tuple[Fraction, Fraction] | None:
-    """Returns two points between which the sign changes, from two such points by bisection; None where the signs agree."""
+    """Return two points between which the sign changes, from two such points by bisection; None where the signs agree."""
     at_low, at_high = value(low), value(high)
     if at_low * at_high >= 0:
         return None

@@ -26,7 +26,7 @@ class Shaped:
 
 
 def shaped_input(coefficients: Sequence[Any], zeros: Sequence[Any] = (), gain: Any = 0) -> Shaped:
-    """Returns the input with these reflection coefficients, each in (-1, 1), and the remaining Schur function gain * prod (z - b)/(1 - b
+    """Return the input with these reflection coefficients, each in (-1, 1), and the remaining Schur function gain * prod (z - b)/(1 - b
     z)."""
     p, q = [gain], [gain * 0 + 1]
     for b in zeros:

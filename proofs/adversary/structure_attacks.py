@@ -77,7 +77,7 @@ def structure_attacks() -> Iterator[Attack]:
 
 
 def on_strata(target: str, name: str, family: Family, quantities: Sequence[Square], decide: Decide) -> Iterator[Attack]:
-    """Yields an attack for each quantity."""
+    """Yield an attack for each quantity."""
     for square in quantities:
         words = WORDS[square]
         yield Attack(
@@ -94,7 +94,7 @@ def on_strata(target: str, name: str, family: Family, quantities: Sequence[Squar
 
 
 def unlike(fails: Fails, show: Show) -> Decide:
-    """Returns a decision that finds a system whose certified quantities fail the statement."""
+    """Return a decision that finds a system whose certified quantities fail the statement."""
 
     def decide(system: ResidualSystem) -> Found | None:
         return (str(system), list(show(system))) if fails(examine("adversary", system)) else None
@@ -188,7 +188,7 @@ def _right_anyway(d: Evidence) -> bool:
 
 
 def _first_column(system: ResidualSystem) -> Found | None:
-    """Finds a z that the rows annihilate on the first block column of T_s(z) at s = lag + 1, and not on all of them."""
+    """Find a z that the rows annihilate on the first block column of T_s(z) at s = lag + 1, and not on all of them."""
     kernel = kernel_representation(system)
     d = examine("adversary", system)
     if not (d.observable and d.left_invertible):
@@ -225,7 +225,7 @@ def _state_needed(d: Evidence) -> bool:
 
 
 def _transfer_zeros(system: ResidualSystem) -> Found | None:
-    """Finds a system for which the zeros of its reachable part, which is minimal where the system is observable, give another rank."""
+    """Find a system for which the zeros of its reachable part, which is minimal where the system is observable, give another rank."""
     d = examine("adversary", system)
     if not (d.observable and d.left_invertible and not d.controllable):
         return None
@@ -241,7 +241,7 @@ def _transfer_zeros(system: ResidualSystem) -> Found | None:
 
 
 def _other_split(system: ResidualSystem) -> Found | None:
-    """Finds two good P of one system whose pairs have different numbers of finite zeros: unit columns, and their sums."""
+    """Find two good P of one system whose pairs have different numbers of finite zeros: unit columns, and their sums."""
     pencil_ = pencil_of(system)
     if not pencil_.columns or pencil_.zeta < 1:
         return None
@@ -286,7 +286,7 @@ def _thick_seen(system: ResidualSystem) -> Found | None:
 
 
 def _range_lost(d: Evidence) -> bool:
-    """Whether G = 0, rank CF = m, there are no finite zeros, and yet members of Z without feedthrough lie outside im F."""
+    """Return whether G = 0, rank CF = m, there are no finite zeros, and yet members of Z without feedthrough lie outside im F."""
     system = d.system
     return (
         system.G.is_zero() and rank(system.C @ system.F) == d.system.m and d.finite_zeros == 0 and d.without_feedthrough != rank(system.F)
@@ -294,7 +294,7 @@ def _range_lost(d: Evidence) -> bool:
 
 
 def _thick(system: ResidualSystem) -> Found | None:
-    """Finds a bad set that is a hypersurface: the coefficients of D(q; P) share a polynomial in P, which they do not where some line misses
+    """Find a bad set that is a hypersurface: the coefficients of D(q; P) share a polynomial in P, which they do not where some line misses
     the set."""
     pencil_ = pencil_of(system)
     rows, cols = pencil_.n_z, pencil_.columns
@@ -316,7 +316,7 @@ def _thick(system: ResidualSystem) -> Found | None:
 
 
 def _common(pencil_: Exceptional, P: Matrix, Q: Matrix) -> fmpq_poly:
-    """Returns the greatest common divisor in t of the coefficients of D(q; P + t Q), of degree r in t at most."""
+    """Return the greatest common divisor in t of the coefficients of D(q; P + t Q), of degree r in t at most."""
     degree = P.ncols
     values = []
     for t in range(degree + 1):
@@ -329,7 +329,7 @@ def _common(pencil_: Exceptional, P: Matrix, Q: Matrix) -> fmpq_poly:
 
 
 def _through(values: Sequence[fmpq]) -> fmpq_poly:
-    """Returns the polynomial with these values at 0, 1, 2, ..."""
+    """Return the polynomial with these values at 0, 1, 2, ..."""
     result, basis = fmpq_poly([0]), fmpq_poly([1])
     for t, y in enumerate(values):
         result += basis * ((y - result(fmpq(t))) / basis(fmpq(t)))

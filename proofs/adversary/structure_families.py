@@ -43,14 +43,14 @@ Square = Callable[[Tables], Rows]
 
 
 def system_of(tables: Tables) -> ResidualSystem:
-    """Returns the exact system of these tables."""
+    """Return the exact system of these tables."""
     n, m, p = len(tables.A), len(tables.F[0]), len(tables.C)
     parts = ([[str(Fraction(x)) for x in row] for row in part] for part in (tables.A, tables.F, tables.C, tables.G))
     return ResidualSystem.of(*parts, n=n, m=m, p=p)
 
 
 def free_family(n: int, p: int, m: int, *, feedthrough: bool = True) -> Family:
-    """Returns a family in which every entry of A, F, C is free, and of G, unless it is zero."""
+    """Return a family in which every entry of A, F, C is free, and of G, unless it is zero."""
     count = n * n + n * m + p * n + (p * m if feedthrough else 0)
 
     def at(point: Sequence[Any]) -> Tables:
@@ -73,7 +73,7 @@ def hidden_family(n: int, p: int, m: int) -> Family:
 
 
 def idle_family(n: int, p: int, m: int) -> Family:
-    """Returns a family in which the first state is reached by no fault: (A, F) is not controllable."""
+    """Return a family in which the first state is reached by no fault: (A, F) is not controllable."""
     free = free_family(n, p, m)
 
     def at(point: Sequence[Any]) -> Tables:
@@ -85,7 +85,7 @@ def idle_family(n: int, p: int, m: int) -> Family:
 
 
 def rank_one_family(n: int, size: int) -> Family:
-    """Returns a family with p = m = size and G = g h': it has zeros at infinity."""
+    """Return a family with p = m = size and G = g h': it has zeros at infinity."""
     count = n * n + 2 * n * size + 2 * size
 
     def at(point: Sequence[Any]) -> Tables:
@@ -97,7 +97,7 @@ def rank_one_family(n: int, size: int) -> Family:
 
 
 def rank_deficient_family() -> Family:
-    """Returns a family with n = p = m = 2, in which the second fault is a multiple of the first: the output cannot tell them apart."""
+    """Return a family with n = p = m = 2, in which the second fault is a multiple of the first: the output cannot tell them apart."""
     single = free_family(2, 2, 1)
 
     def at(point: Sequence[Any]) -> Tables:
@@ -108,7 +108,7 @@ def rank_deficient_family() -> Family:
 
 
 def pencil(z: int) -> Square:
-    """Returns what takes the first n + m rows of [[z I - A, -F], [C, G]]."""
+    """Return what takes the first n + m rows of [[z I - A, -F], [C, G]]."""
 
     def build(t: Tables) -> Rows:
         upper = [[*(z * int(i == j) - x for j, x in enumerate(a)), *(-x for x in f)] for i, (a, f) in enumerate(zip(t.A, t.F, strict=True))]
@@ -118,17 +118,17 @@ def pencil(z: int) -> Square:
 
 
 def feedthrough(t: Tables) -> Rows:
-    """Returns the first m rows of G."""
+    """Return the first m rows of G."""
     return t.G[: len(t.F[0])]
 
 
 def product(t: Tables) -> Rows:
-    """Returns the first m rows of CF."""
+    """Return the first m rows of CF."""
     return _product(t.C, t.F)[: len(t.F[0])]
 
 
 def seen(t: Tables) -> Rows:
-    """Returns the first n rows of O_n."""
+    """Return the first n rows of O_n."""
     block: Rows = t.C
     rows: Rows = []
     while len(rows) < len(t.A):
@@ -138,7 +138,7 @@ def seen(t: Tables) -> Rows:
 
 
 def reached(t: Tables) -> Rows:
-    """Returns the first n columns of [F AF ...], as rows."""
+    """Return the first n columns of [F AF ...], as rows."""
     block: Rows = t.F
     rows: Rows = []
     while len(rows) < len(t.A):
@@ -159,7 +159,7 @@ def determinant(rows: Rows) -> Any:
 
 
 def hadamard(family: Family, square: Square) -> Callable[[Floats], float]:
-    """Returns a function of a point in floats: the determinant against Hadamard's bound, or against 1 for a single number."""
+    """Return a function of a point in floats: the determinant against Hadamard's bound, or against 1 for a single number."""
 
     def value(point: Floats) -> float:
         matrix = np.array(square(family.at(point)), dtype=np.float64)
@@ -170,7 +170,7 @@ def hadamard(family: Family, square: Square) -> Callable[[Floats], float]:
 
 
 def exact_value(family: Family, square: Square) -> Callable[[Point], Fraction]:
-    """Returns the same function in exact arithmetic, without the bound."""
+    """Return the same function in exact arithmetic, without the bound."""
     return lambda point: Fraction(determinant(square(family.at(point))))
 
 

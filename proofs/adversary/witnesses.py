@@ -15,7 +15,7 @@ Found = tuple[str, list[Certificate]]
 
 
 def confirmed(words: str, point: Point, certificates: Iterable[Certificate]) -> Witness:
-    """Returns the counterexample at this point. The checker raises Rejected where it does not accept a certificate."""
+    """Return the counterexample at this point. The checker raises Rejected where it does not accept a certificate."""
     kept = tuple(certificates)
     for certificate in kept:
         accept(certificate)

@@ -79,7 +79,7 @@ class Box:
 
     @property
     def field(self) -> Field:
-        """This is the field of the entries."""
+        """The field of the entries."""
         return self.number_field or (QQ if self.prime is None else PrimeField(self.prime))
 
     def sizes(self) -> list[Sizes]:

@@ -36,7 +36,7 @@ class Counterexample:
 
     @property
     def system(self) -> ResidualSystem:
-        """This is the system, where the claim is about one. Raises TypeError where it is about something else: then `case` has it."""
+        """The system, where the claim is about one. Raises TypeError where it is about something else: then `case` has it."""
         if not isinstance(self.case, ResidualSystem):
             raise TypeError(f"got a counterexample that is no system, expected one; .case is {self.case}")
         return self.case
@@ -48,7 +48,7 @@ class Counterexample:
             yield name, _shown(value) + (" (computed, not certified)" if name in self.computed else "")
 
     def to_json(self) -> dict[str, Any]:
-        """The result is `smallest` of the JSON answer; inf is written as null."""
+        """Return `smallest` of the JSON answer; inf is written as null."""
         values = {name: _json(value) for name, value in self.quantities.items()}
         return {**case_json(self.case), "quantities": values, "computed": list(self.computed), "in_box": self.smallest}
 
@@ -182,7 +182,7 @@ class ClaimAnswer(Shown):
         yield "seconds", f"{self.seconds:.1f}"
 
     def to_json(self) -> dict[str, Any]:
-        """The result is one entry of "claims" in the JSON answer."""
+        """Return one entry of "claims" in the JSON answer."""
         found = self.counterexample
         tried = {name: getattr(self.tried, name) for name in self.tried.__dataclass_fields__}
         answer: dict[str, Any] = {"id": self.id, "field": self.field, "verdict": str(self.verdict)}
@@ -246,7 +246,7 @@ class ClaimAnswers(Shown):
             yield from one.sheet()
 
     def to_json(self) -> dict[str, Any]:
-        """The result is what `faultspace claim --json` prints."""
+        """Return what `faultspace claim --json` prints."""
         return {"claims": [one.to_json() for one in self.answers]}
 
 

@@ -31,17 +31,17 @@ FORMS = {
 
 
 def is_pair(document: Any) -> bool:
-    """Whether the document is meant as a pair of systems."""
+    """Return whether the document is meant as a pair of systems."""
     return isinstance(document, Mapping) and bool({"first", "second"} & set(document))
 
 
 def is_choice(document: Any) -> bool:
-    """Whether the document is meant as a system and a P."""
+    """Return whether the document is meant as a system and a P."""
     return isinstance(document, Mapping) and "P" in document
 
 
 def is_record(document: Any) -> bool:
-    """Whether the document is meant as a system and what drove it."""
+    """Return whether the document is meant as a system and what drove it."""
     return isinstance(document, Mapping) and bool({"u", "x0"} & set(document))
 
 

@@ -70,7 +70,7 @@ class Hypothesis:
 
 @dataclass(frozen=True)
 class Claim:
-    """This is a claim that has been read. `boxes` has a box for each field, in order; `expected` the verdict expected over some of them."""
+    """A claim that has been read. `boxes` has a box for each field, in order; `expected` the verdict expected over some of them."""
 
     id: str
     statement: str

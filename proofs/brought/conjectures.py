@@ -38,7 +38,7 @@ class Sharper:
         return f"{self.text}: refuted by {found.case}" + ("" if found.smallest else " (outside the box)")
 
     def to_json(self) -> dict[str, Any]:
-        """The result is an entry of "sharper" in the JSON answer."""
+        """Return an entry of "sharper" in the JSON answer."""
         found = self.counterexample
         return {
             "bound": self.text,
@@ -74,7 +74,7 @@ class Bound:
 
     @property
     def first(self) -> ResidualSystem:
-        """This is `case`, where the bound is about systems. Raises TypeError where it is about something else."""
+        """`case`, where the bound is about systems. Raises TypeError where it is about something else."""
         if not isinstance(self.case, ResidualSystem):
             raise TypeError(f"got a bound that is attained by a {self.nouns[0]}, expected one about systems; .case is {self.case}")
         return self.case
@@ -96,7 +96,7 @@ class Bound:
             yield "" if k else "  known", said
 
     def to_json(self) -> dict[str, Any]:
-        """The result is an entry of "above" or "below" in the JSON answer."""
+        """Return an entry of "above" or "below" in the JSON answer."""
         return {
             "bound": self.text,
             "attained": {**_parts(self.case), "systems": self.systems},
@@ -128,7 +128,7 @@ class Evidence(Tried):
         return f"{super().words}; {sums}; {drawn}{sparse}; together {counted(self.rows, 'set')} of values"
 
     def to_json(self) -> dict[str, Any]:
-        """The result is "tried" in the JSON answer."""
+        """Return "tried" in the JSON answer."""
         return {name: getattr(self, name) for name in self.__dataclass_fields__}
 
 
@@ -196,7 +196,7 @@ class Conjectures(Shown):
         yield "seconds", f"{self.seconds:.1f}"
 
     def to_json(self) -> dict[str, Any]:
-        """The result is what `faultspace conjecture --json` prints."""
+        """Return what `faultspace conjecture --json` prints."""
         return {
             "target": self.target,
             "about": self.about,
@@ -271,7 +271,7 @@ class Sharpened(Shown):
         yield "seconds", f"{self.seconds:.1f}"
 
     def to_json(self) -> dict[str, Any]:
-        """The result is an entry of "sharpened" in the JSON answer."""
+        """Return an entry of "sharpened" in the JSON answer."""
         return {
             "id": self.id,
             "about": self.about,

@@ -60,7 +60,7 @@ def _drawn() -> Iterator[ResidualSystem]:
 
 
 def _moves(field: Field, system: ResidualSystem) -> bool:
-    """Whether the system is one over the field, or has integer entries, which are one."""
+    """Return whether the system is one over the field, or has integer entries, which are one."""
     return system.field == field or all(
         Fraction(int(x.p), int(x.q)).denominator == 1 for name in "AFCG" for row in getattr(system, name).elements() for x in row
     )

@@ -33,12 +33,12 @@ class Sum:
 
     @cached_property
     def atoms(self) -> frozenset[Atom]:
-        """These are the atoms in it."""
+        """The atoms in it."""
         return frozenset(atom for product, _ in self.terms for atom in product)
 
     @property
     def constant(self) -> int:
-        """This is the multiple of the empty product."""
+        """The multiple of the empty product."""
         return dict(self.terms).get((), 0)
 
     def __add__(self, other: Sum) -> Sum:

@@ -127,7 +127,7 @@ def two_sided_range(bench: Workbench) -> Outcome:
 
 
 def two_sided_one_state(bench: Workbench) -> Outcome:
-    """It is all of that range with one state, B not 0 and past >= 1, whatever the colour and the number of inputs are."""
+    """Return all of that range with one state, B not 0 and past >= 1, whatever the colour and the number of inputs are."""
     records = [e for e in bench.limits if e.whole_range_expected and e.experiment.system.residual.n == 1]
     return certify_limits(records, lambda e: e.equal)
 
@@ -144,17 +144,17 @@ def two_sided_two_states(bench: Workbench) -> Outcome:
 
 
 def two_sided_autoregressive(bench: Workbench) -> Outcome:
-    """It is all of that range where u is autoregressive of order at most s."""
+    """Return all of that range where u is autoregressive of order at most s."""
     return certify_limits([e for e in bench.limits if e.whole_range_expected and e.autoregressive], lambda e: e.equal)
 
 
 def two_sided_nilpotent(bench: Workbench) -> Outcome:
-    """It is all of that range where A is nilpotent, whatever the colour of u is."""
+    """Return all of that range where A is nilpotent, whatever the colour of u is."""
     return certify_limits([e for e in bench.limits if e.whole_range_expected and e.nilpotent], lambda e: e.equal)
 
 
 def two_sided_long_past(bench: Workbench) -> Outcome:
-    """It is all of that range where past >= n + the order of the filter of u, whatever the colour of u is."""
+    """Return all of that range where past >= n + the order of the filter of u, whatever the colour of u is."""
     return certify_limits([e for e in bench.limits if e.whole_range_expected and e.past_of_input], lambda e: e.equal)
 
 

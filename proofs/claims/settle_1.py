@@ -70,6 +70,6 @@ def _regular(e: LimitEvidence) -> bool:
 
 
 def _seen(e: LimitEvidence) -> bool:
-    """Whether neither K nor [F; G] K is 0."""
+    """Return whether neither K nor [F; G] K is 0."""
     residual, K = e.experiment.system.residual, e.experiment.v_filter.numerator[1]
     return not ((residual.F @ K).is_zero() and (residual.G @ K).is_zero())

@@ -26,7 +26,7 @@ def no_finite_zeros_as_a_set(bench: Workbench) -> Outcome:
 
 
 def zeros_are_hidden_modes(system: ResidualSystem) -> bool:
-    """Whether every finite zero is one of the system without faults: those are the unobservable modes."""
+    """Return whether every finite zero is one of the system without faults: those are the unobservable modes."""
     field = system.field
     faultless = system.with_faults(Matrix.zero(field, system.n, 0), Matrix.zero(field, system.p, 0))
     hidden, rest = (zeros_alone(kernel_once(one)) for one in (faultless, system))

@@ -25,7 +25,7 @@ Point = tuple[Fraction, ...]
 
 
 class Aim(StrEnum):
-    """This is what an attack looks for.
+    """What an attack looks for.
 
     SIGN: the statement says that a quantity has no zero, and it has one where its sign changes. ZERO: several quantities together have no
     common zero. NONZERO: a quantity is identically zero. STRATUM: ranks drop where a quantity vanishes, and the statement, which says
@@ -40,7 +40,7 @@ class Aim(StrEnum):
 
 @dataclass(frozen=True)
 class Family:
-    """This is a family of subjects with parameters in a box.
+    """A family of subjects with parameters in a box.
 
     `box` has the bounds of each parameter; inside, `at` gives a subject that meets the hypotheses, or fails the exact test for them.
 
@@ -56,7 +56,7 @@ class Family:
 
 @dataclass(frozen=True)
 class Witness:
-    """This is a counterexample. `point` are the parameters; `certificates` were accepted by the checker."""
+    """A counterexample. `point` are the parameters; `certificates` were accepted by the checker."""
 
     words: str
     point: Point
@@ -73,7 +73,7 @@ class Block:
 
 @dataclass(frozen=True)
 class Attack:
-    """This is one attack on one statement.
+    """One attack on one statement.
 
     `target` is "claim.reading", "without ABLATION: HYPOTHESIS", or a statement withdrawn; `name` tells attacks on one target apart.
 
@@ -95,13 +95,13 @@ class Attack:
 
     @property
     def id(self) -> str:
-        """This is the name that it has in the file of results."""
+        """The name that it has in the file of results."""
         return f"{self.target} by {self.name}"
 
 
 @dataclass(frozen=True)
 class Trial:
-    """This is how an attack ended.
+    """How an attack ended.
 
     `nearest` is the least absolute value seen (of NONZERO: the largest), at `point`. `bracket`: two exact points of the family whose
     quantities have opposite signs, where no rational zero between them was found. `decided` counts exact decisions.
@@ -125,7 +125,7 @@ class Trial:
 
 @dataclass(frozen=True)
 class Attacked:
-    """This is a stored attack as a run shows it. `refutes`: its counterexample, or its change of sign, was confirmed now. `trouble`: it is
+    """A stored attack as a run shows it. `refutes`: its counterexample, or its change of sign, was confirmed now. `trouble`: it is
     out of date, or what is stored was not found again; None otherwise."""
 
     id: str

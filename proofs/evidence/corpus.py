@@ -58,7 +58,7 @@ class Unasked(LookupError):
 
 @dataclass(frozen=True)
 class Evidence:
-    """This is what accepted certificates state of a system, as far as it was asked: each property is the answer to a question.
+    """What accepted certificates state of a system, as far as it was asked: each property is the answer to a question.
 
     `origin` says in words how the system was made, and `weight` how many systems it stands for (the size of an orbit, else 1).
     `window_ranks` are rank [O_s T_s] and `space_dimensions` the dimensions of problem (11) for s = 1, ..., n + 2, each from a certificate
@@ -87,12 +87,12 @@ class Evidence:
 
     @property
     def accepted(self) -> frozenset[str]:
-        """These are the certificates that the answers rest on, all of them accepted, by their SHA-256."""
+        """The certificates that the answers rest on, all of them accepted, by their SHA-256."""
         return frozenset().union(*(answer.accepted for answer in self.answers.values()))
 
     @property
     def kernel(self) -> KernelRepresentation:
-        """These are the kernel rows, as the certificate of all window ranks has them."""
+        """The kernel rows, as the certificate of all window ranks has them."""
         return self.answer(RANKS)
 
     @property
@@ -112,32 +112,32 @@ class Evidence:
 
     @property
     def right_minimal_indices(self) -> tuple[int, ...]:
-        """These are the left minimal indices of the transposed system."""
+        """The left minimal indices of the transposed system."""
         return self.answer(RIGHT_INDICES)
 
     @property
     def delay_known_state(self) -> int | None:
-        """This is the delay of left inversion with x(0) known, a number of samples, or None."""
+        """The delay of left inversion with x(0) known, a number of samples, or None."""
         return self.answer(DELAY_KNOWN_STATE)
 
     @property
     def delay_unknown_state(self) -> int | None:
-        """This is the delay of left inversion with x(0) unknown, a number of samples, or None."""
+        """The delay of left inversion with x(0) unknown, a number of samples, or None."""
         return self.answer(DELAY_UNKNOWN_STATE)
 
     @property
     def invariant_zero_polynomial(self) -> Poly:
-        """These are its coefficients, ascending."""
+        """Its coefficients, ascending."""
         return self.answer(FINITE_ZEROS)
 
     @property
     def finite_zeros(self) -> int:
-        """This is n_f, the number of finite invariant zeros with multiplicity."""
+        """N_f, the number of finite invariant zeros with multiplicity."""
         return len(self.invariant_zero_polynomial) - 1
 
     @property
     def infinite_zero_orders(self) -> tuple[int, ...]:
-        """These are the orders of the zeros at infinity, one for each of the normal rank."""
+        """The orders of the zeros at infinity, one for each of the normal rank."""
         return self.answer(INFINITE_ZEROS)
 
     @property
@@ -147,27 +147,27 @@ class Evidence:
 
     @property
     def fault_space(self) -> FaultSpace:
-        """This is the limit of problem (11)."""
+        """The limit of problem (11)."""
         return self.answer(SPACE)
 
     @property
     def without_feedthrough(self) -> int:
-        """This is the dimension of the members (f, g = 0) of the fault space."""
+        """The dimension of the members (f, g = 0) of the fault space."""
         return self.fault_space.dimension - rank(self.fault_space.G)
 
     @property
     def space_dimensions(self) -> tuple[int, ...]:
-        """These are the dimensions of problem (11) for s = 1, ..., n + 2."""
+        """The dimensions of problem (11) for s = 1, ..., n + 2."""
         return self.answer(WINDOW_SPACES)
 
     @property
     def window_ranks(self) -> tuple[int, ...]:
-        """These are the ranks of [O_s T_s], each matrix by itself, for s = 1, ..., n + 2."""
+        """The ranks of [O_s T_s], each matrix by itself, for s = 1, ..., n + 2."""
         return self.answer(WINDOWS)
 
 
 def describe(evidence: Iterable[Evidence]) -> str:
-    """How these systems were made, with counts."""
+    """Return how these systems were made, with counts."""
     counts: Counter[str] = Counter()
     orbit_counts: Counter[str] = Counter()
     for one in evidence:

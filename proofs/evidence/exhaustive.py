@@ -26,7 +26,7 @@ Digits = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Orbit:
-    """This is a system of least number in its orbit, and the size of the orbit."""
+    """A system of least number in its orbit, and the size of the orbit."""
 
     system: ResidualSystem
     size: int

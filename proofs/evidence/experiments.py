@@ -60,7 +60,7 @@ class Drawn(StrEnum):
 
 @dataclass(frozen=True)
 class LimitEvidence:
-    """This is what accepted certificates say of an experiment and of its signals.
+    """What accepted certificates say of an experiment and of its signals.
 
     `past_lags`: v(k) is uncorrelated with u(k-l) for all l >= 1; `same_time`: for l = 0; `leads`: for all l <= -1.
 

@@ -95,7 +95,7 @@ def loaded(packed: Packed) -> dict[str, Made]:
 
 
 class Folder:
-    """This is a shelf: material by the name of a kind, in the files of a folder. `run` names the run that it belongs to."""
+    """A shelf: material by the name of a kind, in the files of a folder. `run` names the run that it belongs to."""
 
     def __init__(self, path: Path) -> None:
         self.path, self.run = path, str(path)
@@ -120,7 +120,7 @@ class Folder:
 
 
 class Carried:
-    """This is a shelf that holds the material itself."""
+    """A shelf that holds the material itself."""
 
     def __init__(self, run: str | None = None, held: dict[str, Packed] | None = None) -> None:
         self.run, self.held = run or uuid4().hex, {} if held is None else held

@@ -31,7 +31,7 @@ LARGEST = 6  # the vectors of K^(n+m) are the bits of a 64-bit number
 
 @dataclass(frozen=True)
 class Pair:
-    """This is a pair (A, F), the size of its class, and its stabiliser as it acts on rows [c g], by images of the unit vectors."""
+    """A pair (A, F), the size of its class, and its stabiliser as it acts on rows [c g], by images of the unit vectors."""
 
     A: Bits
     F: Bits

@@ -36,7 +36,7 @@ MOST_STATES = 3
 
 @dataclass(frozen=True)
 class PairByPolynomial:
-    """This is a pair (Fhat P, Ghat P), by its polynomial and by accepted certificates.
+    """A pair (Fhat P, Ghat P), by its polynomial and by accepted certificates.
 
     `polynomial` is D(q; P), monic, ascending, as written, and () for a bad P. The rest is what accepted certificates say.
 
@@ -69,7 +69,7 @@ def pencil_of(system: ResidualSystem) -> Exceptional:
 
 @dataclass(frozen=True)
 class CertifiedZeros:
-    """These are the invariant zero polynomial, as it is written, and the number of infinite zeros, as accepted certificates state them."""
+    """The invariant zero polynomial, as it is written, and the number of infinite zeros, as accepted certificates state them."""
 
     polynomial: tuple[object, ...]
     infinite: int

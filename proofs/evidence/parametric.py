@@ -254,7 +254,7 @@ def zero_count_claim(stratification: Stratification) -> ZeroCountClaim:
 
 
 def _verify_within(branch: Branch, stratum: Stratum) -> None:
-    """Raises IdentityFailure unless the branch is part of the stratum."""
+    """Raise IdentityFailure unless the branch is part of the stratum."""
     decisions = stratum.branch.decisions
     if branch.decisions[: len(decisions)] != decisions:
         raise IdentityFailure("a branch is not part of the stratum it belongs to")

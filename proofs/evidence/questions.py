@@ -31,7 +31,7 @@ A = TypeVar("A")
 
 @dataclass(frozen=True)
 class Question(Generic[A]):
-    """This is a question about a system.
+    """A question about a system.
 
     The certificates of `makers` answer it, and `read(subject, certificates)` is the answer that they state. All are functions of a module,
     as questions go to other processes.
@@ -47,7 +47,7 @@ class Question(Generic[A]):
 
 @dataclass(frozen=True)
 class Answer(Generic[A]):
-    """This is what accepted certificates state, and their SHA-256."""
+    """What accepted certificates state, and their SHA-256."""
 
     value: A
     accepted: frozenset[str]

@@ -37,7 +37,7 @@ class Seasonal:
 
     @property
     def size(self) -> int:
-        """This is the number by which the family is ordered."""
+        """The number by which the family is ordered."""
         return sum(abs(x.numerator) + x.denominator for x in (self.t, self.d, self.a, self.b))
 
 

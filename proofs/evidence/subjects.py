@@ -30,12 +30,12 @@ class Subject:
 
     @cached_property
     def transposed(self) -> ResidualSystem:
-        """This is (A', C', F', G')."""
+        """(A', C', F', G')."""
         return self.system.transposed()
 
     @cached_property
     def faultless(self) -> ResidualSystem:
-        """This is (A, C), with no fault."""
+        """(A, C), with no fault."""
         return without_faults(self.system)
 
     @cached_property
@@ -60,33 +60,33 @@ class Subject:
 
     @cached_property
     def fault_space(self) -> FaultSpace:
-        """These are all solutions of problem (11), with their reduced basis."""
+        """All solutions of problem (11), with their reduced basis."""
         return fault_space(self.kernel)
 
     @cached_property
     def infinite_zero_orders(self) -> tuple[int, ...]:
-        """These are the orders of the infinite zeros, ascending, one a unit of normal rank, zeros included."""
+        """The orders of the infinite zeros, ascending, one a unit of normal rank, zeros included."""
         return infinite_zero_orders(self.kernel)
 
     @cached_property
     def finite_zeros(self) -> int:
-        """This is the number of finite zeros with multiplicity: the states that neither indices nor infinite zeros take."""
+        """The number of finite zeros with multiplicity: the states that neither indices nor infinite zeros take."""
         indices = (*self.kernel.left_minimal_indices, *self.dual.left_minimal_indices)
         return self.system.n - sum(indices) - sum(self.infinite_zero_orders)
 
     @cached_property
     def zero_polynomial(self) -> Poly:
-        """This is the product of the invariant polynomials of the pencil, monic, coefficients ascending."""
+        """The product of the invariant polynomials of the pencil, monic, coefficients ascending."""
         return invariant_zero_polynomial(self.kernel, self.finite_zeros)
 
     @cached_property
     def weakly_unobservable(self) -> Matrix:
-        """This is V*, a column basis."""
+        """V*, a column basis."""
         return largest_output_nulling(self.system)
 
     @cached_property
     def strongly_reachable(self) -> Matrix:
-        """This is S*, a column basis."""
+        """S*, a column basis."""
         return chain_from_rest(self.system).last_subspace
 
 

@@ -74,7 +74,7 @@ FAMILIES = (
 
 
 def _drawn(random: Random, family: str) -> Experiment:
-    """Draws until s and past are as the family wants them; u white, or of order at most s, or a moving average where it may be."""
+    """Draw until s and past are as the family wants them; u white, or of order at most s, or a moving average where it may be."""
     while True:
         n, p = random.choice((1, 2, 2, 3)), random.randint(1, 2)
         A, B, F, C = (_rows(random, *shape) for shape in ((n, n), (n, 1), (n, 1), (p, n)))

@@ -45,7 +45,7 @@ class Driven:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """These are the numbers n + m + p + nu, then n, m, p, nu, s, past, then how long the experiment is in words."""
+        """The numbers n + m + p + nu, then n, m, p, nu, s, past, then how long the experiment is in words."""
         e = self.record.experiment
         r, nu = e.system.residual, e.system.nu
         return (r.n + r.m + r.p + nu, r.n, r.m, r.p, nu, e.s, e.past, len(str(self)))
@@ -62,7 +62,7 @@ class Driven:
 
     @property
     def accepted(self) -> frozenset[str]:
-        """These are the accepted certificates, by their SHA-256."""
+        """The accepted certificates, by their SHA-256."""
         return self.record.accepted
 
     @cached_property

@@ -40,7 +40,7 @@ class Facets:
 
 @lru_cache(maxsize=1 << 18)
 def facets(system: ResidualSystem) -> Facets:
-    """What the hypotheses ask of a system, found once."""
+    """Return what the hypotheses ask of a system, found once."""
     kernel = kernel_once(system)
     return Facets(
         observable=rank(observability_matrix(system, system.n)) == system.n,

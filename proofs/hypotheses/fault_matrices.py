@@ -30,7 +30,7 @@ BOX = Box(n=(1, 1), m=(1, 2), p=(1, 2), total=5)
 
 @dataclass(frozen=True)
 class Pair:
-    """This is a system and other fault matrices for its (A, C), as a subject.
+    """A system and other fault matrices for its (A, C), as a subject.
 
     `alternative` has the (A, C) of `system` and columns [F'; G'] that solve its problem (11) at the window.
     """
@@ -44,12 +44,12 @@ class Pair:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """These are the numbers n + m + p, then n, m, p, then the window."""
+        """The numbers n + m + p, then n, m, p, then the window."""
         return (*size(self.system), self.window)
 
     @property
     def field(self) -> str:
-        """This is the field in words, as it is printed."""
+        """The field in words, as it is printed."""
         return str(self.system.field)
 
     @property

@@ -20,7 +20,7 @@ from ..evidence.kept_kernels import kernel_once
 
 
 def every_polynomial_is_reached(pencil: Exceptional) -> bool:
-    """Whether each has a P whose D(q; P) it is up to a unit; of the last the pair's own zeros are asked as well, by another route.
+    """Return whether each has a P whose D(q; P) it is up to a unit; of the last the pair's own zeros are asked as well, by another route.
 
     A polynomial that `assign_zeros` refuses is not reached by any P: the unobservable modes are zeros of every pair.
     """

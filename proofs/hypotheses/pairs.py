@@ -46,18 +46,18 @@ class Compared:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """This is the sum of both n + m + p, then the first's n, m, p, then the window."""
+        """The sum of both n + m + p, then the first's n, m, p, then the window."""
         one, two = self.first, self.second
         return (one.n + one.m + one.p + two.n + two.m + two.p, one.n, one.m, one.p, self.window or 0)
 
     @property
     def field(self) -> str:
-        """This is the field in words, as it is printed."""
+        """The field in words, as it is printed."""
         return str(self.first.field)
 
     @property
     def both(self) -> tuple[ResidualSystem, ResidualSystem]:
-        """These are the two systems, the first one first."""
+        """The two systems, the first one first."""
         return self.first, self.second
 
     @cached_property

@@ -123,22 +123,22 @@ class Chosen:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """These are the numbers n + m + p, then n, m, p."""
+        """The numbers n + m + p, then n, m, p."""
         return size(self.record.system)
 
     @property
     def weight(self) -> int:
-        """This is the number of systems in the orbit."""
+        """The number of systems in the orbit."""
         return self.record.weight
 
     @property
     def field(self) -> str:
-        """This is the field in words, as it is printed."""
+        """The field in words, as it is printed."""
         return str(self.record.system.field)
 
     @property
     def accepted(self) -> frozenset[str]:
-        """These are the accepted certificates, by their SHA-256."""
+        """The accepted certificates, by their SHA-256."""
         return self.record.accepted
 
     @property

@@ -33,7 +33,7 @@ BOX = Box(n=(1, 2), m=(1, 2), p=(1, 2), total=5)
 
 @dataclass(frozen=True)
 class Simulated:
-    """This is a trajectory of a system, as a subject.
+    """A trajectory of a system, as a subject.
 
     `gap` is rank R_(s+1) - rank R_s, `excitation` the rank of [X; V_(s+1)], both of certificates; `order` that of persistency of v.
     """
@@ -55,7 +55,7 @@ class Simulated:
 
     @property
     def field(self) -> str:
-        """This is the field in words, as it is printed."""
+        """The field in words, as it is printed."""
         return str(self.system.field)
 
     @property

@@ -38,7 +38,7 @@ class Windowed:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """These are the numbers n + m + p, then n, m, p, then the window."""
+        """The numbers n + m + p, then n, m, p, then the window."""
         return (*size(self.evidence.system), self.window)
 
     @property
@@ -48,12 +48,12 @@ class Windowed:
 
     @cached_property
     def field(self) -> str:
-        """This is the field in words, as it is printed."""
+        """The field in words, as it is printed."""
         return str(self.evidence.system.field)
 
     @property
     def accepted(self) -> frozenset[str]:
-        """These are the accepted certificates, by their SHA-256."""
+        """The accepted certificates, by their SHA-256."""
         return self.evidence.accepted
 
     @cached_property
@@ -67,7 +67,7 @@ class Windowed:
 
 @dataclass(frozen=True)
 class Condition:
-    """This is a hypothesis or a conclusion about a system and a window.
+    """A hypothesis or a conclusion about a system and a window.
 
     `holds` decides on certificates, which answer the questions `asks`. `look` says the same of integer systems in the language of claims,
     with {s} for the number of samples; it is None where the language has no words for it.

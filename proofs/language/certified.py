@@ -25,7 +25,7 @@ class Certified:
 
     @property
     def horizon(self) -> int:
-        """This is the number of states."""
+        """The number of states."""
         return self.evidence.system.n
 
     @property

@@ -17,7 +17,7 @@ from .vocabularies import ABOUT_A_SYSTEM, Sides, Vocabulary
 
 
 def invariant(*nodes: Node, vocabulary: Vocabulary = ABOUT_A_SYSTEM) -> bool:
-    """Whether that is so for all of them."""
+    """Return whether that is so for all of them."""
     return all(_stays(one, vocabulary) for node in nodes for one in walk(node) if one.op in OF_A_MATRIX)
 
 

@@ -33,7 +33,7 @@ from .zeros import choices
 
 @dataclass
 class Batch(Many):
-    """These are systems of the same sizes over Q (`prime` None), GF(prime) or a number field: the matrices are these, over one denominator;
+    """Systems of the same sizes over Q (`prime` None), GF(prime) or a number field: the matrices are these, over one denominator;
     over a number field of degree d their entries are blocks d x d.
     """
 
@@ -66,7 +66,7 @@ class Batch(Many):
 
     @property
     def sizes(self) -> Mapping[str, tuple[int, int, int]]:
-        """These are n, m, p."""
+        """N, m, p."""
         return {"": (self.n, self.m, self.p)}
 
     @property

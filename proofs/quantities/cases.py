@@ -103,7 +103,7 @@ class PairSubject:
 
     @property
     def matrices(self) -> dict[str, Matrix]:
-        """These are matrices that both have, or that belong to neither."""
+        """Matrices that both have, or that belong to neither."""
         return {"A": self.first.system.A, "C": self.first.system.C}
 
     @cached_property
@@ -126,7 +126,7 @@ class ChoiceSubject(PairSubject):
 
     @property
     def matrices(self) -> dict[str, Matrix]:
-        """This is P, the matrix that was chosen."""
+        """P, the matrix that was chosen."""
         return {"P": self.P}
 
 
@@ -144,12 +144,12 @@ class RecordSubject:
 
     @property
     def matrices(self) -> dict[str, Matrix]:
-        """These are what belongs to the record."""
+        """What belongs to the record."""
         return {"B": self.inputs.system.F, "D": self.inputs.system.G, "u": self.u, "x0": self.x0}
 
     @cached_property
     def trajectory(self) -> Trajectory:
-        """This is the trajectory from x0 under u."""
+        """The trajectory from x0 under u."""
         return simulate(self.inputs.system, self.x0, self.u)
 
 

@@ -43,7 +43,7 @@ class Choices(Both):
 
     @property
     def own(self) -> Mapping[str, Any]:  # type: ignore[override]
-        """These are the quantities of a choice."""
+        """The quantities of a choice."""
         return OF_A_CHOICE
 
     @property

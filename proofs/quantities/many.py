@@ -31,7 +31,7 @@ class Column:
 
 
 class Many(ABC):
-    """These are cases over Q (`prime` None), GF(prime) or a number field, of integers over one `denominator`; `own` are the quantities of
+    """Cases over Q (`prime` None), GF(prime) or a number field, of integers over one `denominator`; `own` are the quantities of
     the whole. Over a number field of degree d each entry of a matrix is a block d x d (`blocks.py`).
     """
 
@@ -48,7 +48,7 @@ class Many(ABC):
     @property
     @abstractmethod
     def sizes(self) -> Mapping[str, tuple[int, int, int]]:
-        """These are (n, m, p) of each system of a case, which all cases share."""
+        """(n, m, p) of each system of a case, which all cases share."""
 
     @property
     def degree(self) -> int:
@@ -114,24 +114,24 @@ class Both(Many):
 
     @property
     def prime(self) -> int | None:  # type: ignore[override]
-        """This is that of the systems."""
+        """That of the systems."""
         found: int | None = self.first.prime
         return found
 
     @property
     def number_field(self) -> NumberField | None:  # type: ignore[override]
-        """This is that of the systems."""
+        """That of the systems."""
         found: NumberField | None = self.first.number_field
         return found
 
     @property
     def denominator(self) -> int:  # type: ignore[override]
-        """This is that of all entries."""
+        """That of all entries."""
         return int(self.first.denominator)
 
     @property
     def sizes(self) -> Mapping[str, tuple[int, int, int]]:
-        """These are n, m, p of both systems."""
+        """N, m, p of both systems."""
         return {name: (one.n, one.m, one.p) for name, one in zip(self.called, (self.first, self.second), strict=True)}
 
     def systems(self, subject: str) -> tuple[Any, Chosen]:

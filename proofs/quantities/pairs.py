@@ -48,7 +48,7 @@ class Pairs(Both):
 
     @property
     def own(self) -> Mapping[str, Any]:  # type: ignore[override]
-        """These are the quantities of a pair."""
+        """The quantities of a pair."""
         return OF_ONE_A_AND_C if self.one_A_and_C else OF_A_PAIR
 
     def case(self, index: int) -> Pair:
@@ -87,7 +87,7 @@ def _equal_at(numbers: Numbers, s: int) -> bool:
 
 
 def _contained_at(numbers: Numbers, s: int) -> bool:
-    """Whether the outputs of the first are among those of the second."""
+    """Return whether the outputs of the first are among those of the second."""
     _, second = numbers.sizes
     return _contained_in(numbers, s, second)
 

@@ -60,7 +60,7 @@ class Ranks:
 
     @property
     def normal_rank(self) -> int:
-        """This is the last increment of rank T_s."""
+        """The last increment of rank T_s."""
         return self.step(DRIVEN, self.n)
 
     def indices(self, family: str, outputs: int) -> tuple[int, ...]:
@@ -72,12 +72,12 @@ class Ranks:
 
     @property
     def left_minimal_indices(self) -> tuple[int, ...]:
-        """These are ascending."""
+        """Ascending."""
         return self.indices(WINDOW, self.p)
 
     @property
     def right_minimal_indices(self) -> tuple[int, ...]:
-        """These are the left ones of the transposed system, ascending."""
+        """The left ones of the transposed system, ascending."""
         return self.indices(DUAL, self.m)
 
     @property
@@ -90,7 +90,7 @@ class Ranks:
 
     @property
     def finite_zeros(self) -> int:
-        """These are the states that neither indices nor infinite zeros take."""
+        """The states that neither indices nor infinite zeros take."""
         return self.n - sum(self.left_minimal_indices) - sum(self.right_minimal_indices) - sum(self.infinite_zero_orders)
 
     def settled(self, family: str) -> int:

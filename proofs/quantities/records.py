@@ -45,7 +45,7 @@ class Records(Both):
 
     @property
     def own(self) -> Mapping[str, Any]:  # type: ignore[override]
-        """These are the quantities of a record."""
+        """The quantities of a record."""
         return OF_A_RECORD
 
     @property
@@ -82,7 +82,7 @@ class Records(Both):
 
     @property
     def inputs_in_time(self) -> Integers:
-        """These are u(0), ..., u(N - 1) as columns (cases, N, nu d, d)."""
+        """u(0), ..., u(N - 1) as columns (cases, N, nu d, d)."""
         d = self.degree
         columns = [transposed(self.u[:, t * d : (t + 1) * d], d) for t in range(self.samples)]
         return np.stack(columns, axis=1) if columns else np.zeros((len(self), 0, self.u.shape[2], d), dtype=np.int64)

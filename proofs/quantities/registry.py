@@ -28,7 +28,7 @@ from .ranks import Ranks
 
 
 class Kind(StrEnum):
-    """This is what an expression stands for."""
+    """What an expression stands for."""
 
     INTEGER = "an integer"
     LIST = "a list of integers"

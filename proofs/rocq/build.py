@@ -75,11 +75,11 @@ Check [the fieldType of rat : Type].
 
 
 class NoRocq(Exception):
-    """It is raised where there is no coqc, or where it finds no MathComp."""
+    """Raised where there is no coqc, or where it finds no MathComp."""
 
 
 class BrokenTheory(Exception):
-    """It is raised where a file does not compile."""
+    """Raised where a file does not compile."""
 
 
 class Poisoned(BrokenTheory):
@@ -100,7 +100,7 @@ class Rocq:
 
 @cache
 def found() -> Rocq | None:
-    """Returns the coqc on the path with its version, or None."""
+    """Return the coqc on the path with its version, or None."""
     path = shutil.which("coqc")
     if path is None:
         return None
@@ -110,13 +110,13 @@ def found() -> Rocq | None:
 
 
 def environment(home: str | None = None) -> dict[str, str]:
-    """Returns the variables for coqc and coqchk, with a home of their own where one is given."""
+    """Return the variables for coqc and coqchk, with a home of their own where one is given."""
     own = dict.fromkeys(("HOME", "TMPDIR", "XDG_CONFIG_HOME", "XDG_DATA_HOME"), home) if home else {}
     return {**{name: os.environ[name] for name in GIVEN if name in os.environ}, **own, "OCAMLRUNPARAM": ONE_CORE}
 
 
 def believed() -> dict[str, str | None]:
-    """Returns by what a proof is checked: the files of coqc and coqchk (None: not there), Rocq's version, the folder of MathComp, and the
+    """Return by what a proof is checked: the files of coqc and coqchk (None: not there), Rocq's version, the folder of MathComp, and the
     SHA-256 of its outermost files, which stands for its version. Raises NoRocq."""
     compiler, checker = found(), shutil.which("coqchk")
     if compiler is None:
@@ -132,14 +132,14 @@ def believed() -> dict[str, str | None]:
 
 
 def told(believed: Mapping[str, str | None]) -> str:
-    """Returns this in words."""
+    """Return this in words."""
     coqchk = believed["coqchk"] or "not on the path"
     mathcomp = f"MathComp {believed['mathcomp']} (SHA-256 {(believed['mathcomp_sha256'] or '')[:12]})"
     return f"coqc {believed['coqc']} ({believed['version']}), coqchk {coqchk}, {mathcomp}"
 
 
 def installation() -> str:
-    """Returns a digest of the compiler's version and of MathComp's outermost files, which name those below them by their digests. Raises
+    """Return a digest of the compiler's version and of MathComp's outermost files, which name those below them by their digests. Raises
     NoRocq.
 
     MathComp is found and not loaded: what was compiled with these files, and what Rocq answered then, is so whatever lies there now, and
@@ -154,13 +154,13 @@ def installation() -> str:
 
 
 def _mathcomp(compiler: Rocq) -> list[str]:
-    """Returns the outermost files of MathComp, where coqc finds them."""
+    """Return the outermost files of MathComp, where coqc finds them."""
     return re.findall(r"is bound to file\s+(\S+\.vo)", _probed(compiler, PLACES))
 
 
 @cache
 def _probed(compiler: Rocq, probe: str) -> str:
-    """Returns what coqc prints. Raises NoRocq where it does not accept the probe."""
+    """Return what coqc prints. Raises NoRocq where it does not accept the probe."""
     with tempfile.TemporaryDirectory() as scratch:
         (Path(scratch) / "Probe.v").write_text(probe, "utf-8")
         try:
@@ -170,7 +170,7 @@ def _probed(compiler: Rocq, probe: str) -> str:
 
 
 def content_hash(texts: dict[str, str]) -> str:
-    """Returns a hash of the sources and of the installation. Raises NoRocq."""
+    """Return a hash of the sources and of the installation. Raises NoRocq."""
     digest = hashlib.sha256(installation().encode())
     for name, text in texts.items():
         digest.update(f"\0{name}\0{text}".encode())
@@ -178,7 +178,7 @@ def content_hash(texts: dict[str, str]) -> str:
 
 
 def compiled_theory(progress: Progress = silent, *, texts: dict[str, str] | None = None) -> Path:
-    """Returns the folder that holds the sources and the compiled files. Raises NoRocq, BrokenTheory.
+    """Return the folder that holds the sources and the compiled files. Raises NoRocq, BrokenTheory.
 
     `texts`: other sources than ours, file name -> text. `progress(words, done, total)` is called before each file.
     """
@@ -209,7 +209,7 @@ def compiled_theory(progress: Progress = silent, *, texts: dict[str, str] | None
 
 
 def _made_private(folder: Path) -> None:
-    """Makes the folder of our cache and the one above it, so that nobody else can write into them. Raises OSError."""
+    """Make the folder of our cache and the one above it, so that nobody else can write into them. Raises OSError."""
     for one in (folder.parent, folder):
         one.mkdir(parents=True, exist_ok=True, mode=0o700)
         status = one.lstat()
@@ -222,7 +222,7 @@ def _made_private(folder: Path) -> None:
 
 
 def _digests(folder: Path) -> dict[str, str]:
-    """Returns the digests of the sources and of the compiled files, by name."""
+    """Return the digests of the sources and of the compiled files, by name."""
     return {one.name: hashlib.sha256(one.read_bytes()).hexdigest() for one in sorted(folder.glob("*.v*")) if one.suffix in (".v", ".vo")}
 
 
@@ -252,7 +252,7 @@ def _not_believed(folder: Path, why: str) -> str:
 
 
 def _own(folder: Path) -> bool:
-    """Whether folder and files belong to the user, no file is a link, and nobody else can enter the folder or exchange it."""
+    """Return whether folder and files belong to the user, no file is a link, and nobody else can enter the folder or exchange it."""
     if not hasattr(os, "getuid"):
         return True
     me = os.getuid()
@@ -268,7 +268,7 @@ def _own(folder: Path) -> bool:
 
 
 def forget() -> None:
-    """Removes the compiled theory of our sources from the cache, with all answers that were kept about it. Raises NoRocq."""
+    """Remove the compiled theory of our sources from the cache, with all answers that were kept about it. Raises NoRocq."""
     place = _place(sources())
     shutil.rmtree(place, ignore_errors=True)
     for one in place.parent.glob(f"{place.name}.*"):
@@ -276,7 +276,7 @@ def forget() -> None:
 
 
 def kept_theory() -> Path | None:
-    """Returns the folder with all of our theory, if it has been compiled before. Raises NoRocq."""
+    """Return the folder with all of our theory, if it has been compiled before. Raises NoRocq."""
     texts = sources()
     place = _place(texts)
     return place if _whole(place, texts) else None
@@ -287,7 +287,7 @@ def _place(texts: dict[str, str]) -> Path:
 
 
 def compile_file(theory: Path, name: str, text: str, *, seconds: float = FILE_SECONDS) -> str:
-    """Returns what coqc prints for this file, which is compiled beside the theory and forgotten. Raises BrokenTheory.
+    """Return what coqc prints for this file, which is compiled beside the theory and forgotten. Raises BrokenTheory.
 
     It is refused where it has a word that would make Rocq write or load something outside.
     """
@@ -299,7 +299,7 @@ def compile_file(theory: Path, name: str, text: str, *, seconds: float = FILE_SE
 
 
 def compiled_again(texts: Mapping[str, str]) -> dict[str, bytes]:
-    """Returns for each file what coqc makes of it; these sources need no others. Raises BrokenTheory.
+    """Return for each file what coqc makes of it; these sources need no others. Raises BrokenTheory.
 
     The same version of Rocq makes the same bytes of the same sources.
     """
@@ -334,7 +334,7 @@ def _compile_all(place: Path, texts: Mapping[str, str], progress: Progress) -> N
 
 
 def _coqc(file: Path, options: tuple[str, ...], seconds: float) -> str:
-    """Returns what coqc prints for the file, in its folder. Raises BrokenTheory where it fails or goes beyond the limits."""
+    """Return what coqc prints for the file, in its folder. Raises BrokenTheory where it fails or goes beyond the limits."""
     compiler = found()
     assert compiler is not None
     limits = (str(int(seconds) + 1), str(MOST_MEMORY // 1024), str(MOST_WRITTEN // 512))

@@ -53,7 +53,7 @@ PROOFS = f"From faultspace Require Import {' '.join(MODULES)}.\n"
 
 
 def exported(certificate: Json) -> Terms:
-    """Returns the terms of a certificate, once the checker has verified it. Raises what `verify` raises, and NotCovered."""
+    """Return the terms of a certificate, once the checker has verified it. Raises what `verify` raises, and NotCovered."""
     checker.verify(certificate)
     try:
         return translated(certificate)
@@ -62,7 +62,7 @@ def exported(certificate: Json) -> Terms:
 
 
 def translated(certificate: Json) -> Terms:
-    """Returns the terms of a certificate whose numbers parse, verified or not. Raises checker.Malformed, checker.Rejected, NotCovered."""
+    """Return the terms of a certificate whose numbers parse, verified or not. Raises checker.Malformed, checker.Rejected, NotCovered."""
     kinds = COVERED if _over_rationals(certificate["statement"]) else OVER_FIELDS
     write = kinds.get(certificate["kind"])
     if write is None:
@@ -78,13 +78,13 @@ def translated(certificate: Json) -> Terms:
 
 
 def _over_rationals(statement: Json) -> bool:
-    """Says whether no system of a statement names another field."""
+    """Say whether no system of a statement names another field."""
     about = [statement[key] for key in checker.SUBJECTS if key in statement] if type(statement) is dict else []
     return all(type(one) is not dict or one.get("field", "Q") == "Q" for one in about)
 
 
 def written(terms: Sequence[Terms]) -> str:
-    """Returns a file with all theorems, which ends by asking what they rest on."""
+    """Return a file with all theorems, which ends by asking what they rest on."""
     claims = "".join(f"Module C{i}.\n{t.claimed()}End C{i}.\n" for i, t in enumerate(terms))
     proofs = "".join(f"Module P{i}.\nImport C{i}.\n{t.proof()}End P{i}.\n" for i, t in enumerate(terms))
     names = ", ".join(f"P{i}.certified : C{i}.said" for i in range(len(terms)))
@@ -356,7 +356,7 @@ def _integers(values: Json) -> list[int]:
 
 
 def _kernel(rows: Json) -> Kernel:
-    """Returns pivots and coefficients of kernel rows."""
+    """Return pivots and coefficients of kernel rows."""
     return [(index(row["pivot"]), [_integers(c) for c in row["coefficients"]]) for row in rows]
 
 
@@ -365,7 +365,7 @@ def _rows(kernel: Kernel) -> tuple[str, str, str]:
 
 
 def _lower(name: str, system: Listed, kernel: Kernel, w: Json, prime: int, window: int | None = None) -> tuple[str, str, str]:
-    """Returns what shows a lower bound: the hints of the witness, or words, of one more sample than there are states or of a window."""
+    """Return what shows a lower bound: the hints of the witness, or words, of one more sample than there are states or of a window."""
     if "point" in w:
         return name, "evidence", f"inr ({system.hints(kernel, w['point'], prime)})"
     return name, "evidence", f"inl {system.words(system.n + 1 if window is None else window, prime)}"
@@ -384,19 +384,19 @@ def _modulus(prime: int) -> tuple[str, str, str]:
 
 
 def _scaled(values: Json, factor: int) -> list[int]:
-    """Returns RATIONALs times a factor that all denominators divide."""
+    """Return RATIONALs times a factor that all denominators divide."""
     checker.charge(len(values) * (200 + factor.bit_length() ** 2 // 500), len(values) * factor.bit_length() // 4)
     return [top * factor // bottom for top, bottom in (checker.rational(x, "a number") for x in values)]
 
 
 def _cleared(rows: Json) -> tuple[Integers, int]:
-    """Returns rows of RATIONALs as integers over their common denominator."""
+    """Return rows of RATIONALs as integers over their common denominator."""
     den = checker.common_denominator(checker.rational(x, "a number")[1] for row in rows for x in row)
     return [_scaled(row, den) for row in rows], den
 
 
 def _integral_word(system: Listed, word: Json) -> tuple[list[int], Integers]:
-    """Returns a word of the integer system: v(k) times the k-th power of its denominator, all times what clears fractions."""
+    """Return a word of the integer system: v(k) times the k-th power of its denominator, all times what clears fractions."""
     _, scale = _cleared([word["x0"], *word["v"]])
     checker.charge((len(word["v"]) ** 3 + 1) * system.den.bit_length() ** 2 // 2000)
     return _scaled(word["x0"], scale), [_scaled(v, scale * system.den**k) for k, v in enumerate(word["v"])]

@@ -30,7 +30,7 @@ Definitions = Sequence[tuple[str, str, str]]
 
 
 def terms_over(numbers: Numbers, definitions: Definitions, check: str, statement: str, lemma: str) -> Terms:
-    """Returns the terms of a statement over every field that the numbers mean something in."""
+    """Return the terms of a statement over every field that the numbers mean something in."""
     named = tuple((name, numbers.of(kind), term) for name, kind, term in definitions)
     return Terms((numbers.definition, *named), check, f"{numbers.given} {statement}", numbers.proof.format(lemma=lemma))
 
@@ -50,7 +50,7 @@ def _window_ranks(s: Json, w: Json) -> Terms:
 
 
 def _exact_rows(system: Numbered, w: Json) -> Kernel:
-    """Returns exact kernel rows in the place of those that a certificate has modulo its prime alone, which the checker looks at."""
+    """Return exact kernel rows in the place of those that a certificate has modulo its prime alone, which the checker looks at."""
     pivots, rows = system.read.field.kernel_rows(w["kernel_modulo"], system.p)
     system.read.spanned_modulo(pivots, rows, w)
     system.bounded(system.n + 1)
@@ -230,7 +230,7 @@ def _matrix_rank(s: Json, w: Json) -> Terms:
 
 
 def finite_zeros(s: Json, w: Json) -> Terms:
-    """Writes finite-zeros, over Q too: Q is Q(a) where a is the root 0 of q."""
+    """Write finite-zeros, over Q too: Q is Q(a) where a is the root 0 of q."""
     system, r = system_of(s["system"], w), index(s["normal_rank"])
     numbers, name, sizes = system.numbers, system.named("system"), (system.n + system.p, system.n + system.m)
     g = _polynomial(numbers, s["invariant_zero_polynomial"])
@@ -254,7 +254,7 @@ def finite_zeros(s: Json, w: Json) -> Terms:
 
 
 def infinite_zeros(s: Json, w: Json) -> Terms:
-    """Writes infinite-zeros, over Q too.
+    """Write infinite-zeros, over Q too.
 
     The certificate has multipliers of the reversed pencil, [1 - t A, t C; - t F, t G] in the theory, which is the pencil at infinity,
     [1 - t A, C; - t F, G], with its last p columns times t. The form D of the one has n entries that do not vanish at t = 0, and V maps
@@ -303,7 +303,7 @@ FIELD_KINDS: dict[str, Callable[[Json, Json], Terms]] = {
 
 
 def system_of(data: Json, w: Json) -> Numbered:
-    """Returns a system of the statement. Raises what the checker says of the prime, its root, and of why the polynomial is irreducible."""
+    """Return a system of the statement. Raises what the checker says of the prime, its root, and of why the polynomial is irreducible."""
     system = Numbered(data)
     system.read.field.irreducible(w)
     if "prime" in w or "root" in w or system.read.field.prime:
@@ -312,12 +312,12 @@ def system_of(data: Json, w: Json) -> Numbered:
 
 
 def _kernel(system: Numbered, rows: Json) -> Kernel:
-    """Returns pivots and coefficients of kernel rows."""
+    """Return pivots and coefficients of kernel rows."""
     return [(index(row["pivot"]), [system.numbers.integral(c, system.p) for c in row["coefficients"]]) for row in rows]
 
 
 def _counted(kernel: Kernel, w: Json, window: int | None) -> Kernel:
-    """Returns the rows that speak of a window: where there are hints, those of lower degree."""
+    """Return the rows that speak of a window: where there are hints, those of lower degree."""
     return [row for row in kernel if window is None or "point" not in w or len(row[1]) <= window]
 
 
@@ -335,7 +335,7 @@ def _hinted(system: Numbered, w: Json, window: int | None = None) -> None:
 
 
 def _rows(system: Numbered, kernel: Kernel, w: Json, window: int | None = None) -> Definitions:
-    """Returns the kernel rows that count and, where they come with hints, other pivots and what makes the leading coefficients there
+    """Return the kernel rows that count and, where they come with hints, other pivots and what makes the leading coefficients there
     diagonal: then they need not be triangular by those that they have."""
     numbers, inverse, kernel = system.numbers, "None", _counted(kernel, w, window)
     _hinted(system, w, window)
@@ -366,24 +366,24 @@ def _table(system: Numbered, name: str, rows: Rows) -> tuple[str, str, str]:
 
 
 def _polynomial(numbers: Numbers, f: Json) -> Row:
-    """Returns the coefficients of a POLY."""
+    """Return the coefficients of a POLY."""
     (row,) = numbers.vectors([f], len(checker.items(f, "a polynomial")))
     return row
 
 
 def _polynomials(numbers: Numbers, value: Json, size: int) -> list[Rows]:
-    """Returns a square POLYMATRIX of that size."""
+    """Return a square POLYMATRIX of that size."""
     rows = checker.items(value, "a matrix of polynomials", size, size)
     return [[_polynomial(numbers, f) for f in checker.items(row, "a row of polynomials", size, size)] for row in rows]
 
 
 def _diagonal(numbers: Numbers, w: Json, sizes: tuple[int, int]) -> Rows:
-    """Returns the diagonal of the form of a pencil of that shape."""
+    """Return the diagonal of the form of a pencil of that shape."""
     return [_polynomial(numbers, f) for f in checker.items(w["diagonal"], "diagonal", min(sizes), min(sizes))]
 
 
 def _multipliers(numbers: Numbers, w: Json, sizes: tuple[int, int]) -> dict[str, list[Rows]]:
-    """Returns the transposed multipliers of a pencil of that shape, by their names in the theory."""
+    """Return the transposed multipliers of a pencil of that shape, by their names in the theory."""
     keys = {"V": ("left", sizes[0]), "V'": ("left_inverse", sizes[0]), "U": ("right", sizes[1]), "U'": ("right_inverse", sizes[1])}
     return {part: [list(row) for row in zip(*_polynomials(numbers, w[key], size), strict=True)] for part, (key, size) in keys.items()}
 
@@ -393,7 +393,7 @@ def _polynomial_table(numbers: Numbers, name: str, rows: Sequence[Rows]) -> tupl
 
 
 def _shifted(numbers: Numbers, table: Sequence[Rows], up: Sequence[bool], down: Sequence[bool]) -> list[Rows]:
-    """Returns polynomials, times t in the rows told and over t in the columns told. Rejected where a division leaves a rest."""
+    """Return polynomials, times t in the rows told and over t in the columns told. Rejected where a division leaves a rest."""
     found = []
     for row, raised in zip(table, up, strict=True):
         line = [[*numbers.unit(1, -1), *f] if raised else f for f in row]
@@ -404,7 +404,7 @@ def _shifted(numbers: Numbers, table: Sequence[Rows], up: Sequence[bool], down: 
 
 
 def _convolved(numbers: Numbers, f: Row, g: Row) -> Row:
-    """Returns the product of two polynomials."""
+    """Return the product of two polynomials."""
     checker.charge(2000 * len(f) * len(g) * numbers.field.degree**2)
     found = [numbers.field.element(0)] * (len(f) + len(g) - 1)
     for i, x in enumerate(f):

@@ -36,7 +36,7 @@ INTO_COMPLEX = "(fun r => embed (value r) : C)"
 
 
 def schur_stable(s: Json, w: Json) -> Terms:
-    """Writes schur-stable: a polynomial with its roots inside the unit circle vanishes at A, for every root a of the minimal polynomial."""
+    """Write schur-stable: a polynomial with its roots inside the unit circle vanishes at A, for every root a of the minimal polynomial."""
     system = Numbered(s["system"])
     system.read.field.irreducible(w)
     checker.expect(not system.read.field.prime, "field: a finite one has no unit circle")
@@ -56,7 +56,7 @@ def schur_stable(s: Json, w: Json) -> Terms:
 
 
 def moesp_limit(s: Json, w: Json) -> Terms:
-    """Writes moesp-limit. Rejected where the ranks modulo the prime are smaller."""
+    """Write moesp-limit. Rejected where the ranks modulo the prime are smaller."""
     about = Process(s["experiment"], w)
     checker.expect(s["instruments"] in ("past-inputs", "past-inputs-and-outputs"), "instruments: past-inputs or past-inputs-and-outputs")
     with_outputs = s["instruments"] == "past-inputs-and-outputs"
@@ -101,14 +101,14 @@ def moesp_limit(s: Json, w: Json) -> Terms:
 
 
 def input_limit(s: Json, w: Json) -> Terms:
-    """Writes input-limit."""
+    """Write input-limit."""
     regressions = {"moesp": regression, "true-AC": output_error}
     checker.expect(s["regression"] in regressions, "regression: true-AC or moesp")
     return regressions[s["regression"]](s, w)
 
 
 def regression(s: Json, w: Json) -> Terms:
-    """Writes input-limit of the regression of MOESP: the states that the response is left with come from the witness."""
+    """Write input-limit of the regression of MOESP: the states that the response is left with come from the witness."""
     window = checker_limits.Experiment(s["experiment"]).s
     about = Process(s["experiment"], w, window)
     read, numbers = about.read, about.plant.numbers
@@ -145,7 +145,7 @@ def regression(s: Json, w: Json) -> Terms:
 
 
 def output_error(s: Json, w: Json) -> Terms:
-    """Writes input-limit of output error: the process of the errors has its own covariance."""
+    """Write input-limit of output error: the process of the errors has its own covariance."""
     about = Process(s["experiment"], w, 1)
     read, numbers = about.read, about.plant.numbers
     n, m, p, nu = read.n, read.m, read.p, read.nu
@@ -182,7 +182,7 @@ LIMIT_KINDS: dict[str, Callable[[Json, Json], Terms]] = {
 
 
 def _descending(f: Any) -> str:
-    """Writes a rational polynomial as integers without a common divisor, from the highest power down."""
+    """Write a rational polynomial as integers without a common divisor, from the highest power down."""
     coefficients = [fmpq(c) for c in f.coeffs()]
     common = checker.common_denominator(int(c.q) for c in coefficients)
     values = [int(c * common) for c in coefficients]
@@ -191,12 +191,12 @@ def _descending(f: Any) -> str:
 
 
 def plain(matrix: Matrix) -> Matrix:
-    """Returns a matrix over Q as one, where the theory has Q for a field with a root."""
+    """Return a matrix over Q as one, where the theory has Q for a field with a root."""
     return Matrix(QQ, matrix.nrows, matrix.ncols, matrix.flint)
 
 
 def stacked_columns(parts: list[Matrix], height: int) -> Matrix:
-    """Returns tables side by side, also where there are none."""
+    """Return tables side by side, also where there are none."""
     return beside(Matrix.zero(QQ, height, 0), *parts)
 
 
@@ -232,20 +232,20 @@ class Process:
 
     @property
     def height(self) -> int:
-        """This is the number of entries of f = (u; v; w)."""
+        """The number of entries of f = (u; v; w)."""
         return int(self.read.nu + self.read.m + self.read.p)
 
     def turned(self, part: Any, height: int, width: int) -> Matrix:
-        """Returns a matrix of the checker, height x width, transposed."""
+        """Return a matrix of the checker, height x width, transposed."""
         return Matrix(QQ, height, width, self.plant.numbers.lifted(part, height, width).flint).transposed()
 
     def table(self, matrix: Matrix) -> str:
-        """Writes a matrix as a term."""
+        """Write a matrix as a term."""
         numbers = self.plant.numbers
         return numbers.table(Matrix(numbers.field, matrix.nrows, matrix.ncols, matrix.flint).elements())
 
     def parts(self) -> tuple[list[Matrix], list[Matrix], list[Matrix], list[Matrix]]:
-        """Returns A, F, C, G; B, D; N_j; and d_1, d_2, ..., transposed."""
+        """Return A, F, C, G; B, D; N_j; and d_1, d_2, ..., transposed."""
         read, h = self.read, self.height
         shapes = ((read.A, read.n, read.n), (read.F, read.n, read.m), (read.C, read.p, read.n), (read.G, read.p, read.m))
         forward = [self.turned(N, h, self.channels) for N, _ in read.chain]
@@ -259,17 +259,17 @@ class Process:
 
     @property
     def term(self) -> str:
-        """This is the experiment as a term."""
+        """The experiment as a term."""
         _, inputs, forward, back = self.parts()
         B, D = map(self.table, inputs)
         return f"ExperimentList ({self.plant.term}) {B} {D} {sequence(map(self.table, forward))} {sequence(map(self.table, back))}"
 
     def basic(self, start: int, count: int) -> Matrix:
-        """Returns basic signals from a place on."""
+        """Return basic signals from a place on."""
         return Matrix.identity(QQ, self.size).columns(range(start, start + count))
 
     def step(self, e: Matrix, x: Matrix, states: list[Matrix]) -> tuple[Matrix, Matrix, Matrix, list[Matrix]]:
-        """Returns u, y, and the next states."""
+        """Return u, y, and the next states."""
         (A, F, C, G), (B, D), forward, back = self.parts()
         nu, m = self.read.nu, self.read.m
         f = e @ forward[0] + states[0] if states else e @ forward[0]
@@ -280,12 +280,12 @@ class Process:
         return u, y, x @ A + u @ B + v @ F, after if states else []
 
     def start(self) -> tuple[Matrix, list[Matrix]]:
-        """Returns the states at time 0."""
+        """Return the states at time 0."""
         n, h = self.read.n, self.height
         return self.basic(0, n), [self.basic(start, h) for start in range(n, self.states, h)] if h else []
 
     def signals(self) -> tuple[list[Matrix], list[Matrix]]:
-        """Returns the inputs and the outputs, one sample after the other."""
+        """Return the inputs and the outputs, one sample after the other."""
         (x, states), inputs, outputs = self.start(), list[Matrix](), list[Matrix]()
         for k in range(self.samples):
             u, y, x, states = self.step(self.basic(self.states + k * self.channels, self.channels), x, states)
@@ -294,7 +294,7 @@ class Process:
         return inputs, outputs
 
     def covariance(self, given: Json, whole: bool) -> Matrix:
-        """Returns the covariance of a witness. Where it has the columns of the filters' states alone, the rest is solved for."""
+        """Return the covariance of a witness. Where it has the columns of the filters' states alone, the rest is solved for."""
         n, size = self.read.n, self.states
         wide = size if whole else size - n
         P = Matrix(QQ, size, wide, self.plant.numbers.matrix(given, size, wide).flint)
@@ -313,12 +313,12 @@ class Process:
         return stacked(beside(rest, across), beside(across.transposed(), own))
 
     def moments(self, P: Matrix, left: Matrix, right: Matrix) -> Matrix:
-        """Returns the covariances of signals."""
+        """Return the covariances of signals."""
         first = range(self.states)
         return left.transposed() @ stacked(P @ right.rows(first), right.rows(range(self.states, self.size)))
 
     def observability(self) -> Matrix:
-        """Returns [C, A C, ...], the transpose of O_s."""
+        """Return [C, A C, ...], the transpose of O_s."""
         (A, _, block, _), _, _, _ = self.parts()
         blocks = [block]
         while len(blocks) < self.read.s:
@@ -326,7 +326,7 @@ class Process:
         return beside(*blocks)
 
     def forced(self, B: Matrix, D: Matrix) -> Matrix:
-        """Returns T_s(B, D), both transposed."""
+        """Return T_s(B, D), both transposed."""
         (A, _, C, _), _, _, _ = self.parts()
         impulse = [D]
         while len(impulse) < self.read.s:
@@ -343,22 +343,22 @@ class Process:
         return f"stable_experiment (experiment_of {INTO_COMPLEX} {sizes} E)"
 
     def definitions(self, P: Matrix) -> tuple[tuple[str, str, str], ...]:
-        """Returns what all begin with: the numbers, the experiment E, its covariance P, what vanishes at its states."""
+        """Return what all begin with: the numbers, the experiment E, its covariance P, what vanishes at its states."""
         numbers = self.plant.numbers
         listed = ("E", f"experiment_list ({numbers.name})", self.term)
         return numbers.definition, listed, *self.tables({"P": P}), ("h", "seq Z", _descending(self.annihilator()))
 
     def tables(self, named: dict[str, Matrix]) -> list[tuple[str, str, str]]:
-        """Returns the definitions of tables."""
+        """Return the definitions of tables."""
         return [(name, self.plant.numbers.of("seq (seq V)"), self.table(matrix)) for name, matrix in named.items()]
 
     def given_nulls(self, rows: Json, width: int) -> list[tuple[int, list[Any]]]:
-        """Returns the rows of a certificate that show a rank from above."""
+        """Return the rows of a certificate that show a rank from above."""
         given = checker.items(rows, "row", max(width, checker.MAX_DIMENSION))
         return [(index(row["pivot"]), self.plant.numbers.integral(row["row"], width)) for row in given]
 
     def annihilator(self) -> Any:
-        """Returns det(qI - A) times the least common multiple of the polynomials of the filters."""
+        """Return det(qI - A) times the least common multiple of the polynomials of the filters."""
         (A, *_), _, _, back = self.parts()
         f = fmpq_poly([fmpq(c.numerator, c.denominator) for c in rational_characteristic_polynomial(A)])
         filters = {tuple(d[i, i] for d in reversed(back)) for i in range(self.height)}
@@ -369,13 +369,13 @@ class Process:
         return f * multiple
 
     def nulls(self, table: Matrix) -> list[tuple[int, list[Any]]]:
-        """Returns vectors that a table sends to zero, as many as there are, with their pivots."""
+        """Return vectors that a table sends to zero, as many as there are, with their pivots."""
         form = row_echelon(right_null_space(table).transposed())
         rows = form.matrix.rows(range(len(form.pivots)))
         return list(zip(form.pivots, Matrix(self.plant.numbers.field, rows.nrows, rows.ncols, rows.flint).elements(), strict=True))
 
     def shown(self, w: Json, table: Matrix, size: int, above: list[tuple[int, list[Any]]]) -> str:
-        """Writes what shows that a table has that rank: vectors that it sends to zero, and combinations."""
+        """Write what shows that a table has that rank: vectors that it sends to zero, and combinations."""
         numbers: Numbers = self.plant.numbers
         prime = index(w["prime"], checker.MAX_PRIME)
         image = reduce_matrix(table, prime, None)

@@ -43,18 +43,18 @@ class Shown:
     part: Poly
 
     def times(self, f: Poly) -> Shown:
-        """Returns the same with another part: f times this one."""
+        """Return the same with another part: f times this one."""
         return Shown(self.point, self.undoing, self.unseen, [[multiply(f, g) for g in row] for row in self.adjoint], multiply(f, self.part))
 
     def term(self, numbers: Numbers) -> str:
-        """Writes it as a term of type line_point."""
+        """Write it as a term of type line_point."""
         adjoint = sequence(map(numbers.table, self.adjoint))
         tables = f"{numbers.table(self.undoing)} {numbers.table(self.unseen)} {adjoint} {numbers.vector(self.part)}"
         return f"LinePoint (R := {numbers.name}) {numbers.number(self.point)} {tables}"
 
 
 def left_invertible_line(s: Json, w: Json) -> Terms:
-    """Writes left-invertible-line. Rejected where the minors have a common zero modulo the prime alone."""
+    """Write left-invertible-line. Rejected where the minors have a common zero modulo the prime alone."""
     first, second = system_of(s["first"], w), system_of(s["second"], w)
     checker.expect(first.sizes == second.sizes, "the two systems differ in their dimensions")
     numbers, size = first.numbers, first.n + first.m
@@ -84,7 +84,7 @@ def left_invertible_line(s: Json, w: Json) -> Terms:
 
 
 def shown_at(first: Numbered, second: Numbered, point: int, rows: Sequence[int]) -> list[Shown]:
-    """Returns what shows that the pencil has full rank at a point where the minor with these rows is not zero, or nothing where it is."""
+    """Return what shows that the pencil has full rank at a point where the minor with these rows is not zero, or nothing where it is."""
     numbers, (n, m, p) = first.numbers, first.sizes
     field, d = numbers.field, numbers.field.degree
     checker.charge(100000 + (n + m) * (2 * n + p) * (n + m + p) * 4000 * d**3 + 8000 * m**5 * d**2, 400 * (n + p) * (n + m) * d**2)
@@ -108,7 +108,7 @@ def shown_at(first: Numbered, second: Numbered, point: int, rows: Sequence[int])
 
 
 def _with_sum_one(numbers: Numbers, shown: Sequence[Shown], m: int) -> list[Shown]:
-    """Returns multiples, by polynomials of degree below m, of which the parts have the sum 1; none where such multiples do not span the
+    """Return multiples, by polynomials of degree below m, of which the parts have the sum 1; none where such multiples do not span the
     polynomials of degree below 2 m, as they do where the minors, as forms in a and b, have no common zero."""
     field = numbers.field
     zero, rows = field.element(0), Rows()
@@ -125,5 +125,5 @@ def _with_sum_one(numbers: Numbers, shown: Sequence[Shown], m: int) -> list[Show
 
 
 def _product(left: PolyMatrix, right: PolyMatrix) -> PolyMatrix:
-    """Returns the product of two square matrices of polynomials."""
+    """Return the product of two square matrices of polynomials."""
     return [[reduce(add, map(multiply, row, column), ()) for column in zip(*right, strict=True)] for row in left]

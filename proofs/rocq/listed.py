@@ -54,11 +54,11 @@ class Listed:
         return f"Listed {whole(self.den)} {' '.join(map(table, (self.A, self.F, self.C, self.G)))}"
 
     def named(self, name: str) -> str:
-        """Returns the system in the theory that the list of that name means."""
+        """Return the system in the theory that the list of that name means."""
         return f"(meant {natural(self.n)} {natural(self.m)} {natural(self.p)} {name})"
 
     def response(self, state: list[int], fault: list[int], samples: int, prime: int) -> list[int]:
-        """Returns the outputs modulo the prime, one after the other, of a state and a fault at time 0."""
+        """Return the outputs modulo the prime, one after the other, of a state and a fault at time 0."""
         found = list[int]()
         for _ in range(samples):
             found += added(times(state, self.C, self.p), times(fault, self.G, self.p), prime)
@@ -66,7 +66,7 @@ class Listed:
         return found
 
     def trajectory(self, state: list[int], faults: Integers, prime: int) -> tuple[Integers, Integers, Integers]:
-        """Returns states, faults and outputs of the integer system modulo the prime, fault k times the k-th power of the denominator."""
+        """Return states, faults and outputs of the integer system modulo the prime, fault k times the k-th power of the denominator."""
         states, weighted, outputs = [state], Integers(), Integers()
         for k, fault in enumerate(faults):
             weighted.append([self.den**k * x for x in fault])
@@ -75,7 +75,7 @@ class Listed:
         return states, weighted, outputs
 
     def words(self, samples: int, prime: int) -> str:
-        """Returns a basis of the words modulo the prime, reduced: initial state, faults, sample and output of the leading one."""
+        """Return a basis of the words modulo the prime, reduced: initial state, faults, sample and output of the leading one."""
         n, m, p = self.n, self.m, self.p
         self.bounded(samples)
         rows = [self.response(unit(n, i), [0] * m, samples, prime) for i in range(n)]
@@ -89,7 +89,7 @@ class Listed:
         return sequence(found)
 
     def demands(self, row: Integers, prime: int = 0) -> Integers:
-        """Returns the condition rows [X_(k+1), c_k] of a kernel row, times powers of the denominator; modulo a prime where there is one."""
+        """Return the condition rows [X_(k+1), c_k] of a kernel row, times powers of the denominator; modulo a prime where there is one."""
         state, found, weight = [0] * self.n, Integers(), 1
         for c in reversed(row):
             scaled = _reduced([weight * x for x in c], prime)
@@ -99,7 +99,7 @@ class Listed:
         return found[::-1]
 
     def minor(self, point: int | None, prime: int) -> tuple[list[int], list[int], int]:
-        """Returns rows, columns and value modulo the prime of a largest minor that is not zero, of the pencil at a point, times the
+        """Return rows, columns and value modulo the prime of a largest minor that is not zero, of the pencil at a point, times the
         denominator, as the theory has the pencil, [q - A, C; - F, G]; or of G, where the point is infinity, None.
         """
         n, m, p = self.sizes
@@ -115,13 +115,13 @@ class Listed:
         return rows, columns, determinant([[table[i][j] for j in columns] for i in rows], prime)
 
     def pencil_minor(self, given: Json, prime: int) -> tuple[str, str]:
-        """Returns the point of a witness, or none for infinity, and that minor there, as terms in the scope of integers."""
+        """Return the point of a witness, or none for infinity, and that minor there, as terms in the scope of integers."""
         point = None if given == "infinity" else checker.index(given, "point", prime - 1)
         rows, columns, value = self.minor(point, prime)
         return "None" if point is None else f"(Some {whole(point)})", f"{naturals(rows)} {naturals(columns)} {whole(value)}"
 
     def hints(self, rows: Sequence[tuple[int, Integers]], given: Json, prime: int) -> str:
-        """Returns hints that prove kernel rows minimal where they are, as a term: a minor of the pencil at a point, that of the leading
+        """Return hints that prove kernel rows minimal where they are, as a term: a minor of the pencil at a point, that of the leading
         coefficients at the pivots, and as many columns as the rows have states, with their minor there, 0 where there are too few.
         """
         width, terms = self.n + self.p, sum(len(row) for _, row in rows)
@@ -135,14 +135,14 @@ class Listed:
 
 
 def determinant(table: Integers, prime: int) -> int:
-    """Returns the determinant of a square table of residues modulo the prime."""
+    """Return the determinant of a square table of residues modulo the prime."""
     size = len(table)
     checker.charge(size**2 * (100 + 4 * size), 100 * size**2)
     return int(nmod_mat(size, size, [x for row in table for x in row], prime).det()) if size else 1
 
 
 def independent(rows: Integers, width: int, prime: int) -> list[tuple[int, list[int]]]:
-    """Reduces rows modulo a prime, in their first `width` columns; returns pivots, and the combinations that lead there."""
+    """Reduce rows modulo a prime, in their first `width` columns; returns pivots, and the combinations that lead there."""
     if not rows or not width:
         return []
     height = len(rows)
@@ -162,20 +162,20 @@ def _reduced(u: list[int], prime: int) -> list[int]:
 
 
 def _pivots(rows: Integers, width: int, prime: int) -> list[int]:
-    """Returns the pivots of rows of residues."""
+    """Return the pivots of rows of residues."""
     return [pivot for pivot, _ in checker.echelon(rows, prime)] if width else []
 
 
 def unit(size: int, i: int) -> list[int]:
-    """Returns a row of the identity."""
+    """Return a row of the identity."""
     return [int(i == j) for j in range(size)]
 
 
 def times(x: list[int], M: Integers, width: int) -> list[int]:
-    """Returns a row times a matrix."""
+    """Return a row times a matrix."""
     return [sum(a * row[j] for a, row in zip(x, M, strict=True)) for j in range(width)]
 
 
 def added(u: Iterable[int], v: Iterable[int], prime: int) -> list[int]:
-    """Returns the sum modulo the prime."""
+    """Return the sum modulo the prime."""
     return [(a + b) % prime for a, b in zip(u, v, strict=True)]

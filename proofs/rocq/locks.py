@@ -50,7 +50,7 @@ class Lock:
     sha256: str
 
     def to_json(self) -> dict[str, Any]:
-        """Returns the object of one theorem in the file."""
+        """Return the object of one theorem in the file."""
         return {"file": self.file, "sha256": self.sha256, "statement": self.statement, "words": list(self.words)}
 
 
@@ -68,7 +68,7 @@ class Locks:
     far: tuple[str, ...]
 
     def to_json(self) -> dict[str, Any]:
-        """Returns the object that the file holds."""
+        """Return the object that the file holds."""
         return {
             "about": f"The statements of the Rocq theory as they were last read. {COMMAND} writes this file.",
             "theorems": {name: lock.to_json() for name, lock in self.theorems.items()},
@@ -81,7 +81,7 @@ class Locks:
 
 
 def made(texts: Mapping[str, str]) -> Locks:
-    """Returns the locks of these sources, file name -> text. Raises NotProved where a file says what no source may, or breaks a rule."""
+    """Return the locks of these sources, file name -> text. Raises NotProved where a file says what no source may, or breaks a rule."""
     if refused := refusals(texts):
         listed = "; ".join(f"{name} has {', '.join(found)}" for name, found in list(refused.items())[:MOST_LISTED])
         raise NotProved(f"the sources of the theory say what no source may: {listed}")
@@ -127,7 +127,7 @@ def _sha256(lines: Sequence[str]) -> str:
 
 
 def kept() -> Locks:
-    """Returns the locks in theory/locks.json. Raises NotProved where the file is not there or not what this module writes."""
+    """Return the locks in theory/locks.json. Raises NotProved where the file is not there or not what this module writes."""
     try:
         data = json.loads(THEORY.joinpath(LOCKS).read_text("utf-8"))
         theorems = {
@@ -141,7 +141,7 @@ def kept() -> Locks:
 
 
 def held(texts: Mapping[str, str], against: Locks | None = None) -> Locks:
-    """Returns the locks of these sources. Raises NotProved where they are not those kept, or where a source assumes something."""
+    """Return the locks of these sources. Raises NotProved where they are not those kept, or where a source assumes something."""
     now, before = made(texts), kept() if against is None else against
     found = list(differences(before, now))
     if found or before != now:
@@ -152,7 +152,7 @@ def held(texts: Mapping[str, str], against: Locks | None = None) -> Locks:
 
 
 def differences(before: Locks, now: Locks) -> Iterator[str]:
-    """Yields what is different, one sentence for each headline, word or opening that is."""
+    """Yield what is different, one sentence for each headline, word or opening that is."""
     for name in sorted({*before.theorems, *now.theorems}):
         old, new = before.theorems.get(name), now.theorems.get(name)
         if old is None:
@@ -192,14 +192,14 @@ def _changed(text: str, before: str) -> str:
 
 
 def _around(text: str, other: str, width: int = 60) -> str:
-    """Returns the part of the text where it differs from the other, with some words before it."""
+    """Return the part of the text where it differs from the other, with some words before it."""
     first = next((k for k, (a, b) in enumerate(zip(text, other, strict=False)) if a != b), min(len(text), len(other)))
     start = max(0, text.rfind(" ", 0, max(0, first - 15)) + 1)
     return f"'{'...' if start else ''}{text[start : first + width]}{'...' if first + width < len(text) else ''}'"
 
 
 def written(locks: Locks) -> str:
-    """Returns the text of theory/locks.json."""
+    """Return the text of theory/locks.json."""
     return json.dumps(locks.to_json(), indent=1, ensure_ascii=False) + "\n"
 
 

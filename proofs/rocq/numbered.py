@@ -36,7 +36,7 @@ FAITHFUL = "forall z, number K z = 0 -> z = Z0"
 
 @dataclass(frozen=True)
 class Numbers:
-    """These are the numbers of a field. `own`: the field as the checker reads it; `name`, `definition`: the arithmetic of the theory and
+    """The numbers of a field. `own`: the field as the checker reads it; `name`, `definition`: the arithmetic of the theory and
     the parameter that it has; `given`: what is said of the field K, and `proof` of an argument `ok`, with `{lemma}` in it."""
 
     own: checker.Field
@@ -47,7 +47,7 @@ class Numbers:
     proof: str
 
     def lifted(self, table: checker.Table, height: int, width: int) -> Matrix:
-        """Returns a table of the checker, height x width over the field, as a matrix."""
+        """Return a table of the checker, height x width over the field, as a matrix."""
         d = self.field.degree
         checker.charge(1000 + 300 * height * width * d * d, 100 * height * width * d * d)
         entries = [x for row in table.rows for x in row]
@@ -56,39 +56,39 @@ class Numbers:
         return Matrix(self.field, height, width, fmpq_mat(fmpz_mat(height * d, width * d, entries)) / fmpz(table.den))
 
     def matrix(self, value: Json, height: int, width: int) -> Matrix:
-        """Returns a MATRIX of that shape. Raises checker.Malformed."""
+        """Return a MATRIX of that shape. Raises checker.Malformed."""
         return self.lifted(self.own.matrix(value, height, width, "a matrix"), height, width)
 
     def vectors(self, value: Json, width: int, most: int = checker.MAX_WINDOW) -> Rows:
-        """Returns a list of VECTORs. Raises checker.Malformed."""
+        """Return a list of VECTORs. Raises checker.Malformed."""
         rows = checker.items(value, "vectors", most)
         return self.matrix(rows, len(rows), width).elements() if rows and width else [[] for _ in rows]
 
     def integral(self, value: Json, width: int) -> Row:
-        """Returns a VECTOR of integers. Raises checker.Malformed."""
+        """Return a VECTOR of integers. Raises checker.Malformed."""
         field, found = self.field, self.own.integers(value, width, "a vector")
         if isinstance(field, PrimeField):
             return [field.element(x) for x in found]
         return [field.element(found[j : j + field.degree]) for j in range(0, len(found), field.degree)]
 
     def joined(self, rows: Sequence[Row], width: int) -> Matrix:
-        """Returns rows as a matrix."""
+        """Return rows as a matrix."""
         checker.charge(1000 + 500 * len(rows) * width * self.field.degree**2, 100 * len(rows) * width * self.field.degree**2)
         return Matrix.from_elements(self.field, len(rows), width, rows)
 
     def unit(self, size: int, i: int) -> Row:
-        """Returns a row of the identity."""
+        """Return a row of the identity."""
         return [self.field.element(int(i == j)) for j in range(size)]
 
     def cleared(self, row: Row) -> Row:
-        """Returns a row times the common denominator of its coordinates, with which Rocq has less to reduce."""
+        """Return a row times the common denominator of its coordinates, with which Rocq has less to reduce."""
         if isinstance(self.field, PrimeField):
             return row
         den = checker.common_denominator(int(c.q) for x in row for c in self.field.coordinates(x))
         return [x * den for x in row]
 
     def number(self, element: Any) -> str:
-        """Writes a number as a term: a residue, or coordinates as pairs of integers, without zeros at the end."""
+        """Write a number as a term: a residue, or coordinates as pairs of integers, without zeros at the end."""
         if isinstance(self.field, PrimeField):
             return whole(int(element))
         coordinates = self.field.coordinates(element)
@@ -97,24 +97,24 @@ class Numbers:
         return sequence(f"({whole(int(c.p))}, {whole(int(c.q))})" for c in coordinates)
 
     def vector(self, row: Iterable[Any]) -> str:
-        """Writes a vector as a term."""
+        """Write a vector as a term."""
         return sequence(map(self.number, row))
 
     def table(self, rows: Iterable[Iterable[Any]]) -> str:
-        """Writes a list of vectors as a term."""
+        """Write a list of vectors as a term."""
         return sequence(map(self.vector, rows))
 
     def pivoted(self, rows: Iterable[tuple[int, Row]]) -> str:
-        """Writes pivots with their vectors as a term."""
+        """Write pivots with their vectors as a term."""
         return sequence(f"({natural(pivot)}%N, {self.vector(row)})" for pivot, row in rows)
 
     def of(self, kind: str) -> str:
-        """Writes a type in which V stands for the numbers."""
+        """Write a type in which V stands for the numbers."""
         return kind.replace("V", f"(numeral ({self.name}))")
 
 
 def numbers_of(own: checker.Field) -> Numbers:
-    """Returns the arithmetic of GF(p) or Q(a), or of Q, where a is the root 0 of q. Raises NotCovered where a polynomial is reducible."""
+    """Return the arithmetic of GF(p) or Q(a), or of Q, where a is the root 0 of q. Raises NotCovered where a polynomial is reducible."""
     if own.prime:
         return Numbers(
             own, PrimeField(own.prime), "residues l", ("l", "Z", whole(own.prime)),
@@ -151,7 +151,7 @@ class Numbered:
         return f"Listing (R := {self.numbers.name}) {' '.join(tables)}"
 
     def named(self, name: str) -> str:
-        """Returns the system in the theory that the list of that name means."""
+        """Return the system in the theory that the list of that name means."""
         return f"(system_of value {natural(self.n)} {natural(self.m)} {natural(self.p)} {name})"
 
     def bounded(self, samples: int) -> None:
@@ -162,7 +162,7 @@ class Numbered:
         checker.charge(work, 200 * height * (width + height) * d * d)
 
     def trajectory(self, state: Row, faults: Sequence[Row]) -> tuple[Rows, Rows]:
-        """Returns states and outputs."""
+        """Return states and outputs."""
         numbers, states, outputs = self.numbers, [state], Rows()
         for fault in faults:
             x, v = numbers.joined([states[-1]], self.n), numbers.joined([fault], self.m)
@@ -171,24 +171,24 @@ class Numbered:
         return states, outputs
 
     def response(self, state: Row, fault: Row, samples: int) -> Row:
-        """Returns the outputs, one after the other, of a state and a fault at time 0."""
+        """Return the outputs, one after the other, of a state and a fault at time 0."""
         rest = [self.numbers.field.element(0)] * self.m
         _, outputs = self.trajectory(state, [fault, *[rest] * samples][:samples])
         return [x for output in outputs for x in output]
 
     def free(self, samples: int) -> Rows:
-        """Returns the outputs of the unit states."""
+        """Return the outputs of the unit states."""
         rest = [self.numbers.field.element(0)] * self.m
         return [self.response(self.numbers.unit(self.n, i), rest, samples) for i in range(self.n)]
 
     def forced(self, samples: int) -> Rows:
-        """Returns the outputs of the unit faults from rest, at one time after the other."""
+        """Return the outputs of the unit faults from rest, at one time after the other."""
         zero = self.numbers.field.element(0)
         first = [self.response([zero] * self.n, self.numbers.unit(self.m, i), samples) for i in range(self.m)]
         return [[zero] * (self.p * k) + row[: self.p * (samples - k)] for k in range(samples) for row in first]
 
     def words(self, samples: int) -> str:
-        """Returns a basis of the words, reduced: initial state, faults, sample and output of the leading one."""
+        """Return a basis of the words, reduced: initial state, faults, sample and output of the leading one."""
         self.bounded(samples)
         found, n, m = [], self.n, self.m
         for pivot, u in independent(self.numbers, self.free(samples) + self.forced(samples), self.p * samples):
@@ -198,7 +198,7 @@ class Numbered:
         return sequence(found)
 
     def conditions(self, row: Rows) -> Rows:
-        """Returns the condition rows [X_(k+1), c_k] of a kernel row."""
+        """Return the condition rows [X_(k+1), c_k] of a kernel row."""
         state, found = self.numbers.joined([[self.numbers.field.element(0)] * self.n], self.n), Rows()
         for c in reversed(row):
             coefficient = self.numbers.joined([c], self.p)
@@ -208,12 +208,12 @@ class Numbered:
 
 
 def transposed(matrix: Matrix) -> Matrix:
-    """Returns the transpose, also over Q(a), where blocks stay what they are."""
+    """Return the transpose, also over Q(a), where blocks stay what they are."""
     return Matrix.from_elements(matrix.field, matrix.ncols, matrix.nrows, [list(row) for row in zip(*matrix.elements(), strict=True)])
 
 
 def independent(numbers: Numbers, rows: Rows, width: int) -> list[tuple[int, Row]]:
-    """Reduces rows in their first `width` columns; returns pivots, and the combinations that lead there, over Q(a) without denominators."""
+    """Reduce rows in their first `width` columns; returns pivots, and the combinations that lead there, over Q(a) without denominators."""
     if not rows or not width:
         return []
     height, d = len(rows), numbers.field.degree
@@ -224,7 +224,7 @@ def independent(numbers: Numbers, rows: Rows, width: int) -> list[tuple[int, Row
 
 
 def inverse_at(numbers: Numbers, rows: Rows, width: int) -> tuple[list[int], Rows] | None:
-    """Returns pivots at which the rows are an invertible matrix, and its inverse, each row times a number; None for dependent rows."""
+    """Return pivots at which the rows are an invertible matrix, and its inverse, each row times a number; None for dependent rows."""
     if not rows:
         return [], []
     form = row_echelon(numbers.joined(rows, width)).pivots if width else ()

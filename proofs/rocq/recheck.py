@@ -32,7 +32,7 @@ PRIMITIVE = re.compile(r"Coq\.(?:Numbers\.Cyclic\.Int63\.PrimInt63|Strings\.Prim
 
 
 def recheck(progress: Progress = silent) -> str:
-    """Returns what was done, in words. Raises NoRocq, BrokenTheory, NotProved."""
+    """Return what was done, in words. Raises NoRocq, BrokenTheory, NotProved."""
     forget()
     theory = compiled_theory(progress)
     if shutil.which("coqchk") is None:

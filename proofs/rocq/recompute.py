@@ -61,7 +61,7 @@ REJECTED = Recomputed("rejected", "the check computes to false")
 
 
 def recomputed(certificates: Sequence[Any], progress: Progress = silent, *, seconds: float = SECONDS) -> list[Recomputed]:
-    """Returns one answer for each certificate. Rocq is asked about what the checker verifies, and about nothing else: the rest is rejected
+    """Return one answer for each certificate. Rocq is asked about what the checker verifies, and about nothing else: the rest is rejected
     here. Undecided is what takes longer than `seconds`, or too much memory. Raises NoRocq, BrokenTheory (of the theory itself), NotProved
     where the words that statements are made of are not as locked."""
     held(sources())
@@ -85,7 +85,7 @@ def recomputed(certificates: Sequence[Any], progress: Progress = silent, *, seco
 
 
 def theory(progress: Progress = silent) -> Path:
-    """Returns the folder with the compiled files that the checks need. Raises NoRocq, BrokenTheory."""
+    """Return the folder with the compiled files that the checks need. Raises NoRocq, BrokenTheory."""
     if (whole := kept_theory()) is not None:
         return whole
     texts, wanted = sources(), set[str]()
@@ -98,7 +98,7 @@ def theory(progress: Progress = silent) -> Path:
 
 
 def decided(terms: Sequence[Terms], compiled: Path, seconds: float = SECONDS) -> list[bool]:
-    """Returns what the boolean check of each computes to. Raises BrokenTheory, also when it takes longer."""
+    """Return what the boolean check of each computes to. Raises BrokenTheory, also when it takes longer."""
     parts = [f"Module C{i}.\n{t.opening()}\nEval vm_compute in {t.check}.\nEnd C{i}.\n" for i, t in enumerate(terms)]
     said = compile_file(compiled, "Recomputed.v", HEAD + PROOFS + "".join(parts), seconds=seconds)
     verdicts = [word == "true" for word in re.findall(r"= (true|false)\s+: bool", said)]

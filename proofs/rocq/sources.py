@@ -24,7 +24,7 @@ REQUIRED = re.compile(r"From\s+faultspace\s+Require\s+(?:Import|Export)?([\s\w]*
 
 
 def paths(theory: Traversable = THEORY) -> dict[str, str]:
-    """Returns file name -> its path below the theory, FOLDER/NAME.v, in the order of the names. Raises ValueError where two files share a
+    """Return file name -> its path below the theory, FOLDER/NAME.v, in the order of the names. Raises ValueError where two files share a
     name."""
     found = [(one.name, folder.name) for folder in theory.iterdir() if folder.is_dir() for one in folder.iterdir()]
     files = sorted((name, f"{folder}/{name}") for name, folder in found if name.endswith(".v"))
@@ -36,17 +36,17 @@ def paths(theory: Traversable = THEORY) -> dict[str, str]:
 
 
 def sources() -> dict[str, str]:
-    """Returns file name -> text, of all files of the theory."""
+    """Return file name -> text, of all files of the theory."""
     return {name: THEORY.joinpath(path).read_text("utf-8") for name, path in paths().items()}
 
 
 def beyond() -> dict[str, str]:
-    """Returns file name -> text, of the files that use the theory and what it does without; nothing of the theory needs them."""
+    """Return file name -> text, of the files that use the theory and what it does without; nothing of the theory needs them."""
     return {one.name: one.read_text("utf-8") for one in sorted(BEYOND.iterdir(), key=lambda one: one.name) if one.name.endswith(".v")}
 
 
 def needs(texts: Mapping[str, str]) -> dict[str, set[str]]:
-    """Returns file name -> names of those of these files that it requires."""
+    """Return file name -> names of those of these files that it requires."""
     return {
         name: {f"{module}.v" for names in REQUIRED.findall(text) for module in names.split() if f"{module}.v" in texts}
         for name, text in texts.items()

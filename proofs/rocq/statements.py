@@ -56,7 +56,7 @@ class Word:
 
     @property
     def key(self) -> str:
-        """This is the name of the word with its file, which tells it from all other words."""
+        """The name of the word with its file, which tells it from all other words."""
         return f"{self.file.removesuffix('.v')}.{self.name}"
 
 
@@ -79,7 +79,7 @@ class Statements:
         return {word.key: self._named(word.text, word.file, word) for words in self.words.values() for word in words.values()}
 
     def reached(self, headline: Headline) -> list[Word]:
-        """Returns the words that the statement uses, and those that these use, by their keys. Raises NotProved where one is of no
+        """Return the words that the statement uses, and those that these use, by their keys. Raises NotProved where one is of no
         vocabulary."""
         found: dict[str, Word] = {}
         waiting = [*self._named(headline.statement, headline.file, None)]
@@ -91,11 +91,11 @@ class Statements:
         return [found[key] for key in sorted(found)]
 
     def uses(self, word: Word) -> tuple[Word, ...]:
-        """Returns the words that the definition of a word names."""
+        """Return the words that the definition of a word names."""
         return self._uses[word.key]
 
     def named(self, text: str, file: str) -> tuple[Word, ...]:
-        """Returns the words that a text of this file names."""
+        """Return the words that a text of this file names."""
         return self._named(text, file, None)
 
     def _named(self, text: str, file: str, inside: Word | None) -> tuple[Word, ...]:
@@ -103,7 +103,7 @@ class Statements:
         return tuple({word.key: word for name in names if (word := self._meant(name, file, inside)) is not None}.values())
 
     def _meant(self, name: str, file: str, inside: Word | None) -> Word | None:
-        """Returns the word that this name stands for in that file, or in that word of it."""
+        """Return the word that this name stands for in that file, or in that word of it."""
         first, _, rest = name.partition(".")
         if rest and f"{first}.v" in self.openings:
             return self.words.get(f"{first}.v", {}).get(rest)
@@ -119,7 +119,7 @@ class Statements:
 
 
 def read(texts: Mapping[str, str]) -> Statements:
-    """Reads the statements of these sources, file name -> text. Raises NotProved where a file breaks the rules."""
+    """Read the statements of these sources, file name -> text. Raises NotProved where a file breaks the rules."""
     parted = {name: sentences(text) for name, text in texts.items()}
     files = sorted(name for name in texts if HEADLINES.fullmatch(name))
     vocabularies = sorted(name for name in texts if VOCABULARY.fullmatch(name))
@@ -157,7 +157,7 @@ def _only_required(sentence: str) -> bool:
 
 
 def _imported(name: str, texts: Mapping[str, str], parted: Mapping[str, Sequence[str]]) -> tuple[str, ...]:
-    """Returns the vocabularies that a file imports, with those that they import, the last one first."""
+    """Return the vocabularies that a file imports, with those that they import, the last one first."""
     order = list[str]()
     for one in parted[name]:
         m = REQUIRE.fullmatch(one)
@@ -172,7 +172,7 @@ def _imported(name: str, texts: Mapping[str, str], parted: Mapping[str, Sequence
 
 
 def _headlines(name: str, found: Sequence[str]) -> Iterator[Headline]:
-    """Returns the theorems of a file that holds nothing else."""
+    """Return the theorems of a file that holds nothing else."""
     waiting = iter(found)
     begun = False
     for one in waiting:
@@ -195,7 +195,7 @@ def _headlines(name: str, found: Sequence[str]) -> Iterator[Headline]:
 
 
 def _words(name: str, found: Sequence[str]) -> dict[str, Word]:
-    """Returns the words of a file that defines and does nothing else, by each name that stands for one: of a record its fields too."""
+    """Return the words of a file that defines and does nothing else, by each name that stands for one: of a record its fields too."""
     words: dict[str, Word] = {}
     around: list[tuple[str, str, list[str]]] = []
     for place, one in enumerate(found):
@@ -221,7 +221,7 @@ def _words(name: str, found: Sequence[str]) -> dict[str, Word]:
 
 
 def _fields(sentence: str) -> list[str]:
-    """Returns the constructor and the fields of a record, or the constructors of an inductive type."""
+    """Return the constructor and the fields of a record, or the constructors of an inductive type."""
     if sentence.startswith("Record"):
         record = re.fullmatch(rf".*?:=\s*({NAME})?\s*\{{(.*)\}}\.", sentence)
         if record is None:

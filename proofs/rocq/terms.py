@@ -25,16 +25,16 @@ class Terms:
     lemma: str
 
     def opening(self) -> str:
-        """Returns the definitions as text."""
+        """Return the definitions as text."""
         lines = [f"Definition {name} : {kind} := {term}." for name, kind, term in self.definitions]
         return "\n".join(["Local Open Scope Z_scope.", *lines, "Local Close Scope Z_scope."])
 
     def claimed(self) -> str:
-        """Returns the definitions, and what is stated of them, under the name `said`."""
+        """Return the definitions, and what is stated of them, under the name `said`."""
         return f"{self.opening()}\nDefinition said : Prop := {self.statement}.\n"
 
     def proof(self) -> str:
-        """Returns the theorem that it is so, which is proved by computation."""
+        """Return the theorem that it is so, which is proved by computation."""
         return f"""Lemma checked : {self.check} = true.
 Proof. vm_cast_no_check (erefl true). Qed.
 Theorem certified : said.
@@ -47,21 +47,21 @@ AT_FIRST = "(fun k => if k is 0%N then 1%:M else 0)"
 
 
 def determines(system: str, known: str, delay: str) -> str:
-    """Returns that the outputs up to a delay determine v(0), from rest (known) or from any state, as a proposition."""
+    """Return that the outputs up to a delay determine v(0), from rest (known) or from any state, as a proposition."""
     zero = f"(forall k, (k <= {delay})%N -> output {system} x v k = 0)"
     return f"(forall x v, ({known} -> x = 0) -> {zero} -> v 0%N = 0)"
 
 
 def index(value: Json, largest: int = checker.MAX_DIMENSION * checker.MAX_WINDOW) -> int:
-    """Returns an INDEX. Raises checker.Malformed."""
+    """Return an INDEX. Raises checker.Malformed."""
     return checker.index(value, "an index", largest)
 
 
 def indices(values: Json) -> list[int]:
-    """Returns a list of INDEXes. Raises checker.Malformed."""
+    """Return a list of INDEXes. Raises checker.Malformed."""
     return [index(value) for value in checker.items(values, "indices")]
 
 
 def window_of(value: Json) -> int:
-    """Returns a number of samples. Raises checker.Malformed."""
+    """Return a number of samples. Raises checker.Malformed."""
     return index(value, checker.MAX_WINDOW)

@@ -25,38 +25,38 @@ def whole(number: int) -> str:
 
 
 def natural(number: int) -> str:
-    """Writes a natural number as a term, likewise."""
+    """Write a natural number as a term, likewise."""
     if type(number) is not int or number < 0:
         raise TypeError(f"got a {type(number).__name__}, expected a natural number")
     return str(number)
 
 
 def sequence(terms: Iterable[str]) -> str:
-    """Writes a list of terms as a term."""
+    """Write a list of terms as a term."""
     inside = "; ".join(terms)
     return f"[:: {inside}]" if inside else "[::]"
 
 
 def vector(entries: Iterable[int]) -> str:
-    """Writes a list of integers as a term."""
+    """Write a list of integers as a term."""
     return sequence(map(whole, entries))
 
 
 def table(rows: Iterable[Iterable[int]]) -> str:
-    """Writes a list of lists of integers as a term."""
+    """Write a list of lists of integers as a term."""
     return sequence(map(vector, rows))
 
 
 def call(function: str, *arguments: int | str) -> str:
-    """Writes a function and its arguments, numbers being natural ones."""
+    """Write a function and its arguments, numbers being natural ones."""
     return " ".join([function, *(one if isinstance(one, str) else f"{natural(one)}%N" for one in arguments)])
 
 
 def pivoted(vectors: Iterable[tuple[int, list[int]]]) -> str:
-    """Writes a list of pivots with their vectors as a term."""
+    """Write a list of pivots with their vectors as a term."""
     return sequence(f"({natural(pivot)}%N, {vector(u)})" for pivot, u in vectors)
 
 
 def naturals(numbers: Iterable[int]) -> str:
-    """Writes a list of natural numbers as a term."""
+    """Write a list of natural numbers as a term."""
     return sequence(f"{natural(number)}%N" for number in numbers)

@@ -33,7 +33,7 @@ ALL = "all together"
 
 @dataclass(frozen=True)
 class Theorems:
-    """These are theorems of the theory. `statements`: theorem -> its statement in Rocq's words; all closed under the global context.
+    """Theorems of the theory. `statements`: theorem -> its statement in Rocq's words; all closed under the global context.
     `locks`: theorem -> its SHA-256.
     """
 
@@ -43,7 +43,7 @@ class Theorems:
 
 
 def check(names: Iterable[str], progress: Progress = silent) -> Theorems:
-    """Returns the statements of these headlines. Raises NotProved, NoRocq, BrokenTheory, Poisoned."""
+    """Return the statements of these headlines. Raises NotProved, NoRocq, BrokenTheory, Poisoned."""
     wanted, texts = sorted(set(names)), sources()
     locks = held(texts)
     statements = asked(wanted, texts, compiled_theory(progress), progress)
@@ -54,7 +54,7 @@ def check(names: Iterable[str], progress: Progress = silent) -> Theorems:
 
 
 def asked(wanted: list[str], texts: Mapping[str, str], theory: Path, progress: Progress = silent) -> dict[str, str]:
-    """Returns name -> statement, as Rocq prints it with the compiled theory of these sources. Raises NotProved, BrokenTheory, Poisoned."""
+    """Return name -> statement, as Rocq prints it with the compiled theory of these sources. Raises NotProved, BrokenTheory, Poisoned."""
     statements = read(texts)
     missing = [name for name in wanted if name not in statements.headlines]
     if missing:
@@ -64,7 +64,7 @@ def asked(wanted: list[str], texts: Mapping[str, str], theory: Path, progress: P
 
 
 def _answer(theory: Path, texts: Mapping[str, str], lines: list[str], progress: Progress) -> str:
-    """Returns what Rocq prints. It is kept beside the compiled theory: the same question to the same files has the same answer."""
+    """Return what Rocq prints. It is kept beside the compiled theory: the same question to the same files has the same answer."""
     text = "\n".join(lines) + "\n"
     about = {"asked": _sha256(text.encode()), "files": _sha256((theory / DIGESTS).read_bytes())}
     place = theory.with_suffix(f".{about['asked'][:12]}.json")
@@ -89,7 +89,7 @@ def _sha256(data: bytes) -> str:
 
 
 def _same_vocabulary(theory: Path, texts: Mapping[str, str]) -> None:
-    """Raises Poisoned where a compiled vocabulary is not what coqc makes of its source now."""
+    """Raise Poisoned where a compiled vocabulary is not what coqc makes of its source now."""
     for name, made in compiled_again({name: text for name, text in texts.items() if VOCABULARY.fullmatch(name)}).items():
         if made != (theory / name).with_suffix(".vo").read_bytes():
             raise Poisoned(
@@ -99,7 +99,7 @@ def _same_vocabulary(theory: Path, texts: Mapping[str, str]) -> None:
 
 
 def _unlike(error: str, lines: list[str]) -> str:
-    """Says what a question that Rocq does not accept tells of the compiled theory."""
+    """Say what a question that Rocq does not accept tells of the compiled theory."""
     place = re.search(r"line (\d+)", error)
     stated = lines[int(place[1]) - 1 if place else -1]
     of = re.search(r"@Headlines\.(\w+)", stated)
@@ -133,7 +133,7 @@ def proposition(statement: str) -> str:
 
 
 def parted(statement: str) -> tuple[str, str]:
-    """Returns the binders of a statement, and what it states."""
+    """Return the binders of a statement, and what it states."""
     depth = 0
     for k, sign in enumerate(statement):
         depth += {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}.get(sign, 0)
@@ -143,7 +143,7 @@ def parted(statement: str) -> tuple[str, str]:
 
 
 def answers(names: Iterable[str], said: str) -> dict[str, str]:
-    """Returns name -> statement. Raises NotProved unless every name is there and all together rest on nothing."""
+    """Return name -> statement. Raises NotProved unless every name is there and all together rest on nothing."""
     parts: dict[str, str] = {}
     _, *marked = re.split(rf"^{MARK}([\w ]+)$", said, flags=re.MULTILINE)
     for name, rest in zip(marked[::2], marked[1::2], strict=True):

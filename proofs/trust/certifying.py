@@ -24,7 +24,7 @@ from .structure_certificates import Certificate, Unprovable
 
 
 class _Kind(NamedTuple):
-    """This is what a kind needs to know beside its subject, what it may be given, and its maker, which gets subject and options."""
+    """What a kind needs to know beside its subject, what it may be given, and its maker, which gets subject and options."""
 
     needed: tuple[str, ...]
     optional: tuple[str, ...]

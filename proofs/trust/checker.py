@@ -56,7 +56,7 @@ if 0 < sys.get_int_max_str_digits() < 19730:  # Python's own bound is below that
 
 
 class Meter:
-    """This is what a certificate has cost so far: work in all, and the bytes that its matrices hold now."""
+    """What a certificate has cost so far: work in all, and the bytes that its matrices hold now."""
 
     held = work = 0
 
@@ -372,7 +372,7 @@ class System:
 
     @property
     def words(self) -> str:
-        """These are the matrices, with what they do not tell."""
+        """The matrices, with what they do not tell."""
         dimensions = "" if self.n and self.m and self.p else f" (n={self.n}, m={self.m}, p={self.p})"
         over = "" if self.field.key == "Q" else f" over {shorten(self.data['field'])}"
         return f"({', '.join(f'{name}={shorten(self.data[name])}' for name in 'AFCG')}){dimensions}{over}"
@@ -521,7 +521,7 @@ ELSEWHERE = {  # the kinds of the other files
 
 
 class Kind(NamedTuple):
-    """This is what verifies a kind, keys of the statement and of the witness, the statement in words, and the proof in a line."""
+    """What verifies a kind, keys of the statement and of the witness, the statement in words, and the proof in a line."""
 
     check: Callable[..., None]
     statement: str
@@ -548,7 +548,7 @@ KINDS: dict[str, Kind] = {
 
 
 class Verified(NamedTuple):
-    """This is the statement in words, and what it assumes beyond what was verified: nothing, or that a polynomial is irreducible."""
+    """The statement in words, and what it assumes beyond what was verified: nothing, or that a polynomial is irreducible."""
 
     statement: str
     assumes: list[str]
@@ -673,7 +673,7 @@ def quote_path(name: str) -> str:
 
 
 class Arguments(argparse.ArgumentParser):
-    """This is a parser whose complaints hold no control characters."""
+    """A parser whose complaints hold no control characters."""
 
     def error(self, message: str) -> NoReturn:
         super().error(message if message.isprintable() else ascii(message))

@@ -108,7 +108,7 @@ class Mat(core.Table):
 
     @property
     def T(self) -> Mat:
-        """This is the transpose, not over Q(a)."""
+        """The transpose, not over Q(a)."""
         core.charge(self.nc * (1000 + len(self.rows) * 100), core.room(self.nc, len(self.rows), self.bits))
         return Mat(self.field, [[row[j] for row in self.rows] for j in range(self.nc)], len(self.rows), self.den)
 

@@ -180,7 +180,7 @@ def _plain(matrix: Matrix) -> list[list[object]]:
 
 
 class _Same:
-    """This is a kernel representation as a key: it is equal to itself alone, which is quick to see."""
+    """A kernel representation as a key: it is equal to itself alone, which is quick to see."""
 
     def __init__(self, kernel: KernelRepresentation) -> None:
         self.kernel = kernel

@@ -57,33 +57,33 @@ class Certified:
 
     @cached_property
     def chain(self) -> Chain:
-        """These are the filters of the experiment."""
+        """The filters of the experiment."""
         return _chain(self.limits.experiment)
 
     @cached_property
     def own(self) -> Matrix:
-        """This is the covariance of the filters' states."""
+        """The covariance of the filters' states."""
         return self.chain.covariance()
 
     @cached_property
     def across(self) -> Matrix:
-        """This is Cov(x, s)."""
+        """Cov(x, s)."""
         experiment = self.limits.experiment
         return self.chain.with_states(experiment.system.residual.A, _into(experiment, experiment.system.B), self.own)
 
     @cached_property
     def part(self) -> list[list[object]]:
-        """This is Cov(xi, s), which is enough where inputs alone are asked for."""
+        """Cov(xi, s), which is enough where inputs alone are asked for."""
         return stacked(self.across, self.own).to_json()
 
     @cached_property
     def seen(self) -> Matrix:
-        """This is the observability matrix O_s of the plant (p s, n)."""
+        """The observability matrix O_s of the plant (p s, n)."""
         return observability_matrix(self.limits.experiment.system.residual, self.limits.experiment.s)
 
     @cached_property
     def response(self) -> Matrix:
-        """This is Cov(Yf, Uf) Cov(Uf)^-1."""
+        """Cov(Yf, Uf) Cov(Uf)^-1."""
         blocks = self.limits.blocks
         return solve(blocks.uf_uf, blocks.yf_uf.transposed()).transposed()
 

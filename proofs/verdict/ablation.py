@@ -29,7 +29,7 @@ from .workbench import Workbench, accepted
 
 
 class Subject(Protocol):
-    """This is what a claim is about. `size` orders, `weight` is how many this one stands for, `field` names K, `accepted` are the
+    """What a claim is about. `size` orders, `weight` is how many this one stands for, `field` names K, `accepted` are the
     certificates, by their SHA-256.
 
     `degenerate` says why it would be a poor witness: C = 0, repeated fault columns, an input that does nothing; "" where it would not.
@@ -53,7 +53,7 @@ S = TypeVar("S", bound=Subject)
 
 @dataclass(frozen=True)
 class Proof:
-    """These are `theorems` of theory/headlines that prove the conclusion, for all subjects, from these `hypotheses` and no other."""
+    """`theorems` of theory/headlines that prove the conclusion, for all subjects, from these `hypotheses` and no other."""
 
     theorems: tuple[str, ...]
     hypotheses: frozenset[str] = frozenset()
@@ -61,7 +61,7 @@ class Proof:
 
 @dataclass(frozen=True)
 class Ablation(Generic[S]):
-    """This is what a claim is when hypotheses of it are dropped: its conclusion, its hypotheses, and where it is tried.
+    """What a claim is when hypotheses of it are dropped: its conclusion, its hypotheses, and where it is tried.
 
     `claim` is the id in the ledger. `over_q(bench, dropped)`: the smallest subject over Q that meets the hypotheses not dropped and fails,
     or None, and in words where it was sought. `show` gives certificates of a subject. `implied`: hypotheses that follow from the others,
@@ -90,7 +90,7 @@ class Ablation(Generic[S]):
 
 @dataclass(frozen=True)
 class Found(Generic[S]):
-    """This is the end of a search: a subject or None, and in words where it was sought."""
+    """The end of a search: a subject or None, and in words where it was sought."""
 
     subject: S | None
     box: str
@@ -108,7 +108,7 @@ def first_found(counterexamples: Callable[[bool], Iterable[S]], box: str) -> Fou
 
 @dataclass
 class _Tally(Generic[S]):
-    """These are all subjects by the set of hypotheses they violate: how many, and the smallest of each field that fails the conclusion."""
+    """All subjects by the set of hypotheses they violate: how many, and the smallest of each field that fails the conclusion."""
 
     tried: Counter[frozenset[str]]
     accepted: dict[frozenset[str], set[str]]

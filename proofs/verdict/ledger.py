@@ -59,12 +59,12 @@ class Reading(Shown):
 
     @property
     def proved(self) -> str:
-        """This is the verdict expected where Rocq has checked the theorems: what holds is PROVED, what is refuted stays so."""
+        """The verdict expected where Rocq has checked the theorems: what holds is PROVED, what is refuted stays so."""
         return "PROVED" if self.theorems and self.expected != "REFUTED" else self.expected
 
     @property
     def title(self) -> str:
-        """This is its name and the verdict that the ledger expects where there is Rocq."""
+        """Its name and the verdict that the ledger expects where there is Rocq."""
         return f"{self.id}, {self.proved} is expected"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
@@ -114,7 +114,7 @@ class Claim(Shown):
 
     @property
     def title(self) -> str:
-        """This is its name, and where it stands."""
+        """Its name, and where it stands."""
         return f"{self.id} ({self.reference})"
 
     @property

@@ -27,7 +27,7 @@ LEFT, GAP = 8.2, 0.6  # where the first square stands, and the space between the
 
 @dataclass(frozen=True)
 class Line:
-    """This is a claim's name and verdict, the verdicts on the readings of its words, and those on readings of ours."""
+    """A claim's name and verdict, the verdicts on the readings of its words, and those on readings of ours."""
 
     name: str
     verdict: str
@@ -36,7 +36,7 @@ class Line:
 
 
 def draw(lines: Sequence[Line], ax: Any = None) -> Any:
-    """Draws the lines into the matplotlib axes `ax`, new ones where None are given, and returns them.
+    """Draw the lines into the matplotlib axes `ax`, new ones where None are given, and return them.
 
     Raises ImportError where there is no matplotlib.
     """

@@ -26,7 +26,7 @@ from .picture import Line, draw
 
 
 class Verdict(StrEnum):
-    """This is the closed list of verdicts, from the strongest to that of a check which did not finish.
+    """The closed list of verdicts, from the strongest to that of a check which did not finish.
 
     Each is a string, and `meaning` says in a sentence what it stands for. A run computes verdicts; none is ever stored by hand.
     The type is StrEnum, so that a verdict is written to JSON as it is.
@@ -47,7 +47,7 @@ class Verdict(StrEnum):
 
     @property
     def meaning(self) -> str:
-        """This is what the verdict says of a statement."""
+        """What the verdict says of a statement."""
         return _MEANINGS[self]
 
 
@@ -67,7 +67,7 @@ IMPLIED = "IMPLIED"  # the ledger's word for a hypothesis that follows from the 
 
 @dataclass(frozen=True)
 class Outcome:
-    """This is what a check found. `evidence` says on what the verdict rests; `certificates` are the headline ones, all accepted by the
+    """What a check found. `evidence` says on what the verdict rests; `certificates` are the headline ones, all accepted by the
     checker.
 
     `decided` has the SHA-256 of those that the checker accepted on the way; `accepted` counts the distinct ones, headline or not.
@@ -80,18 +80,18 @@ class Outcome:
 
     @property
     def all_decided(self) -> frozenset[str]:
-        """These are all certificates that the checker accepted for it, headline or not, by their SHA-256."""
+        """All certificates that the checker accepted for it, headline or not, by their SHA-256."""
         return self.decided | {sha256(certificate) for certificate in self.certificates}
 
     @property
     def accepted(self) -> int:
-        """This is the number of distinct certificates that the checker accepted for it."""
+        """The number of distinct certificates that the checker accepted for it."""
         return len(self.all_decided)
 
 
 @dataclass(frozen=True, repr=False)
 class ReadingResult(Shown):
-    """This is one reading of one claim, checked. `locks`: theorem -> the SHA-256 of what it says (`rocq_locks`)."""
+    """One reading of one claim, checked. `locks`: theorem -> the SHA-256 of what it says (`rocq_locks`)."""
 
     reading: Reading
     outcome: Outcome
@@ -102,7 +102,7 @@ class ReadingResult(Shown):
 
     @property
     def expected(self) -> str:
-        """This is the ledger's verdict, PROVED where Rocq has checked the theorems of the reading."""
+        """The ledger's verdict, PROVED where Rocq has checked the theorems of the reading."""
         return self.reading.proved if self.machine_checked else self.reading.expected
 
     @property
@@ -112,7 +112,7 @@ class ReadingResult(Shown):
 
     @property
     def title(self) -> str:
-        """This is its name and verdict."""
+        """Its name and verdict."""
         return f"{self.reading.id}: {self.outcome.verdict}" + ("" if self.as_expected else f", expected {self.expected}")
 
     def sheet(self) -> list[tuple[str, str]]:
@@ -144,7 +144,7 @@ class ReadingResult(Shown):
 
 @dataclass(frozen=True, repr=False)
 class ClaimResult(Shown):
-    """This is a claim with its readings checked. AMENDED: every reading of its words, or of those of one of its parts, is refuted, and a
+    """A claim with its readings checked. AMENDED: every reading of its words, or of those of one of its parts, is refuted, and a
     repair is not."""
 
     claim: Claim
@@ -152,19 +152,19 @@ class ClaimResult(Shown):
 
     @property
     def verdict(self) -> Verdict:
-        """This is the verdict on the claim, computed from those on its readings."""
+        """The verdict on the claim, computed from those on its readings."""
         return of_readings([(r.reading, r.outcome.verdict) for r in self.readings], in_parts=self.claim.in_parts)
 
     @property
     def expected(self) -> str:
-        """This is the ledger's verdict; where Rocq has checked theorems of it, what the verdicts expected of its readings make."""
+        """The ledger's verdict; where Rocq has checked theorems of it, what the verdicts expected of its readings make."""
         if not any(r.machine_checked for r in self.readings):
             return self.claim.expected
         return of_readings([(r.reading, Verdict(r.expected)) for r in self.readings], in_parts=self.claim.in_parts)
 
     @property
     def rests_on(self) -> tuple[str, ...]:
-        """These are the readings that hold, with their level: what the claim comes down to."""
+        """The readings that hold, with their level: what the claim comes down to."""
         return tuple(f"{r.reading.id}: {r.outcome.verdict}" for r in self.readings if r.outcome.verdict != Verdict.REFUTED)
 
     @property
@@ -174,7 +174,7 @@ class ClaimResult(Shown):
 
     @property
     def title(self) -> str:
-        """This is its name and verdict."""
+        """Its name and verdict."""
         return f"{self.claim.id}: {self.verdict}" + ("" if self.verdict == self.expected else f", expected {self.expected}")
 
     def sheet(self) -> list[tuple[str, str]]:
@@ -217,7 +217,7 @@ def of_readings(readings: Sequence[tuple[Reading, Verdict]], *, in_parts: bool) 
 
 @dataclass(frozen=True)
 class Row:
-    """This is the claim without the hypotheses `dropped`. `already` names a single one of them without which it falls already.
+    """The claim without the hypotheses `dropped`. `already` names a single one of them without which it falls already.
 
     `theorems` prove it without them, and `machine_checked` says that Rocq has checked these in the run. Of the `tried` subjects that meet
     the other hypotheses, `lacking` violate one of the dropped. `implied`: why a dropped one follows from the others; None where it does
@@ -244,12 +244,12 @@ class Row:
 
     @property
     def all_decided(self) -> frozenset[str]:
-        """These are all certificates that the checker accepted for it, headline or not, by their SHA-256."""
+        """All certificates that the checker accepted for it, headline or not, by their SHA-256."""
         return self.decided | {sha256(certificate) for certificate in self.certificates}
 
     @property
     def accepted(self) -> int:
-        """This is the number of distinct certificates that the checker accepted for it."""
+        """The number of distinct certificates that the checker accepted for it."""
         return len(self.all_decided)
 
     @property
@@ -261,7 +261,7 @@ class Row:
 
     @property
     def meaning(self) -> str:
-        """This is the verdict in the words of the table: needed, not needed, or not needed since it follows from the others."""
+        """The verdict in the words of the table: needed, not needed, or not needed since it follows from the others."""
         if self.verdict == Verdict.REFUTED:
             return "needed"
         if self.verdict == Verdict.ERROR:
@@ -360,7 +360,7 @@ class Report(Shown):
         return frozenset().union(*readings, *(row.all_decided for row in self.hypotheses))
 
     def plot(self, ax: Any = None) -> Any:
-        """Draws a line a claim and a square a reading into the matplotlib axes `ax`, new ones where None are given, and returns them.
+        """Draw a line a claim and a square a reading into the matplotlib axes `ax`, new ones where None are given, and return them.
 
         Raises ImportError where there is no matplotlib.
         """

@@ -53,17 +53,17 @@ class Workbench:
 
     @cached_property
     def pairs(self) -> tuple[PairEvidence, ...]:
-        """These are pairs of systems with accepted certificates."""
+        """Pairs of systems with accepted certificates."""
         return self.material(PAIRS)
 
     @cached_property
     def alternatives(self) -> tuple[AlternativeEvidence, ...]:
-        """These are systems with other fault matrices for the same (A, C)."""
+        """Systems with other fault matrices for the same (A, C)."""
         return self.material(ALTERNATIVES)
 
     @cached_property
     def pairs_by_polynomial(self) -> tuple[PairByPolynomial, ...]:
-        """These are pairs (Fhat P, Ghat P) with D(q; P) and accepted certificates."""
+        """Pairs (Fhat P, Ghat P) with D(q; P) and accepted certificates."""
         return self.material(PAIRS_BY_POLYNOMIAL)
 
     @cached_property
@@ -165,12 +165,12 @@ class Workbench:
 
     @cached_property
     def _packed(self) -> dict[str, Packed]:
-        """This is what was made here, of which `_made` has what was asked for."""
+        """What was made here, of which `_made` has what was asked for."""
         return {}
 
     @cached_property
     def _searched(self) -> dict[Sizes, list[Batch]]:
-        """These are the systems with the usual entries, by their sizes."""
+        """The systems with the usual entries, by their sizes."""
         return {}
 
     @cached_property

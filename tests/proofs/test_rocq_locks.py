@@ -163,7 +163,7 @@ def test_a_reading_is_locked_with_its_theorems(monkeypatch: pytest.MonkeyPatch) 
     for claim in claims:
         for one, other in zip(claim.readings, readings[::-1], strict=False):
             changes = {"statement": f"{one.statement} Always."}, {"theorems": other.theorems}, {"check": other.check}, {"hypotheses": ()}
-            for spoilt in (replace(one, **change) for change in changes):  # type: ignore[arg-type]
+            for spoilt in (replace(one, **change) for change in changes):
                 forged = replace(claim, readings=tuple(spoilt if kept is one else kept for kept in claim.readings))
                 ledger = [forged if kept is claim else kept for kept in claims]
                 monkeypatch.setattr(rocq_locks, "load", lambda ledger=ledger: ledger)

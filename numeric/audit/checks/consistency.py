@@ -39,7 +39,7 @@ def _coloured(vector: ConsistencyVector) -> Check:
         sides = Sides("eigenvalues", [got[j] for j in places], list(vector.poles), [vector.bound] * n)
         yield Measurement("poles", float(np.max(off)), vector.bound, sides)
 
-    effect = "a fault with memory biases the model, and more data do not help"
+    effect = "under a fault with memory poles off by more than half the bias of past outputs as instruments"
     return Check("consistent-under-coloured-fault", "identify", vector.slug, "past-outputs", effect, Severity.SILENT, measure, nearness=1.0)
 
 

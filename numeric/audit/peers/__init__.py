@@ -19,7 +19,7 @@ import os
 import shutil
 import subprocess
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from importlib import metadata
 from pathlib import Path
@@ -38,7 +38,8 @@ HERE = Path(__file__).parent
 @dataclass(frozen=True)
 class Peer:
     """This is a package to compare with. `adapter`: a module name for `adapter.load`, or None; `command`: a command for
-    `subprocess_adapter.Exec`, or None. `version` gives None where the peer is not installed; `needs` says in a line what to install.
+    `subprocess_adapter.Exec`, or None. `version` gives None where the peer is not installed; `needs` says in a line what to install;
+    `not_promised` is the NOT_PROMISED of what has no adapter module.
     """
 
     name: str
@@ -48,6 +49,7 @@ class Peer:
     command: tuple[str, ...] | None
     needs: str
     version: Callable[[], str | None]
+    not_promised: Callable[[], dict[str, str]] = dict
 
 
 def _distribution(name: str) -> str | None:
@@ -92,6 +94,12 @@ def _fault_id() -> str | None:
     return f"ggleizer/fault_id {digest[:12]}, {octave}"
 
 
+def _of_moesp() -> dict[str, str]:
+    from ._promises import coloured, more_block_rows_than_states
+
+    return more_block_rows_than_states("moesp: The desired order of the resulting state-space system SYS. S > N > 0.") | coloured()
+
+
 def _python(name: str, title: str, adapter: str, distribution: str) -> Peer:
     needs = f"pip install {distribution}"
     return Peer(name, title, "Python", f"{__name__}.{adapter}", None, needs, partial(_distribution, distribution))
@@ -115,7 +123,10 @@ PEERS = (
     _python("python-control", "python-control: markov, eigensys_realization; StateSpace.zeros", "control_adapter", "control"),
     _python("python-control-alone", "python-control without slycot: StateSpace.zeros", "control_adapter:without_slycot", "control"),
     _python("slycot", "slycot (SLICOT): ab08nd", "slycot_adapter", "slycot"),
-    _script("octave-control", "Octave's control (SLICOT): moesp; zero", "octave_control.m", CONTROL, partial(_octave, "control")),
+    replace(
+        _script("octave-control", "Octave's control (SLICOT): moesp; zero", "octave_control.m", CONTROL, partial(_octave, "control")),
+        not_promised=_of_moesp,
+    ),
     Peer(
         "matrix-pencils",
         "MatrixPencils.jl: spzeros, sprank",

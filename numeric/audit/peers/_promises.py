@@ -1,9 +1,11 @@
 """Which checks ask for what a package says that it does not do: they are asked, and counted apart.
 
-    with_feedthrough    of plants with a D
-    from_a_state        of records that do not begin at rest
-    not_over            of plants whose impulse response is not over after so many samples
-    not_square          of systems with more or fewer outputs than inputs
+    with_feedthrough               of plants with a D
+    more_block_rows_than_states    of windows with no more block rows than the order
+    coloured                       of poles where the disturbance is not white
+    from_a_state                   of records that do not begin at rest
+    not_over                       of plants whose impulse response is not over after so many samples
+    not_square                     of systems with more or fewer outputs than inputs
 
 Each gives patterns SLUG/VECTOR -> reason for an adapter's NOT_PROMISED. They are made of the default vectors; those of another seed bear
 the same names, and are of the same kinds.
@@ -31,6 +33,17 @@ OVER = 1e-10  # what is left of an impulse response that is over: less than the 
 def with_feedthrough(reason: str) -> dict[str, str]:
     """Return the checks of `identify` where D is not zero."""
     return _asked_of("identify", [name for name, model in _models().items() if floats(model.D).any()], reason)
+
+
+def more_block_rows_than_states(reason: str) -> dict[str, str]:
+    """Return the checks of `identify` where the order is not below the number of block rows."""
+    return _asked_of("identify", [name for name, model in _models().items() if model.order >= model.block_rows], reason)
+
+
+def coloured() -> dict[str, str]:
+    """Return the checks of `identify` under a coloured fault, for a package that says nothing of one."""
+    reason = "no document of the package promises consistency under a disturbance that is not white"
+    return _asked_of("identify", [vector.slug for vector in shipped("consistency")], reason)
 
 
 def from_a_state(reason: str) -> dict[str, str]:

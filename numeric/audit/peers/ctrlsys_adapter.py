@@ -14,6 +14,7 @@ import numpy as np
 
 from ....base.arrays import Array
 from ..adapter import ZeroStructure
+from ._promises import coloured, more_block_rows_than_states
 from ._slicot import structure_of
 
 SINGULAR = (3, 4, 5)  # of ib01ad: all singular values zero, a rank-deficient least-squares problem: SLICOT's way to decline
@@ -41,6 +42,7 @@ def _combined(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any
 
 
 combined = SimpleNamespace(identify=_combined)
+NOT_PROMISED = combined.NOT_PROMISED = more_block_rows_than_states("ib01bd: n (int): System order (0 < n < nobr)") | coloured()
 
 
 def structure(A: Array, F: Array, C: Array, G: Array) -> ZeroStructure:

@@ -8,6 +8,9 @@ import pandas
 from nfoursid.nfoursid import NFourSID
 
 from ....base.arrays import Array
+from ._promises import coloured
+
+NOT_PROMISED = coloured()
 
 
 def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:

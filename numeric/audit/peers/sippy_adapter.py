@@ -16,9 +16,8 @@ from typing import Any
 from sippy_unipi import system_identification
 
 from ....base.arrays import Array
+from ._promises import coloured, more_block_rows_than_states
 from ._promises import with_feedthrough as plants_with_feedthrough
-
-NOT_PROMISED = plants_with_feedthrough("the default SS_D_required=False estimates no D")
 
 
 def _identified(y: Array, u: Array, order: int, block_rows: int, **options: bool) -> tuple[Any, Any, Any, Any]:
@@ -40,3 +39,9 @@ def _with_feedthrough(y: Array, u: Array, order: int, block_rows: int) -> tuple[
 
 
 with_feedthrough = SimpleNamespace(identify=_with_feedthrough)
+with_feedthrough.NOT_PROMISED = (
+    more_block_rows_than_states("The horizon must be larger than the model order")
+    | coloured()
+    | {"form-float32/*": "no document of the package promises the digits of double precision for arrays of single precision"}
+)
+NOT_PROMISED = with_feedthrough.NOT_PROMISED | plants_with_feedthrough("the default SS_D_required=False estimates no D")

@@ -25,7 +25,6 @@ KEPT = (
     ("nfoursid", "other-units[n2-u1-p1]-identify"),
     ("nfoursid", "refuses-short-data[n3-u2-p2]-identify"),
     ("sippy_unipi", "right-on-long-records[N12000]-identify"),
-    ("sippy_unipi-D", "form-float32[whole-numbers]-identify"),
     ("python-control", "refuses-unexciting-input[n2-u1-p1-constant]-identify"),
     ("python-control-alone", "finite-zeros[orders-one-and-three]-structure"),
     ("slycot", "normal-rank[six-by-six]-structure"),

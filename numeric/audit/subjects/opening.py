@@ -78,6 +78,8 @@ def opened(adapter: object, command: Command | None, peer: str | None, limits: L
         limits = replace(limits, passed=(*limits.passed, *VARIABLES))  # where a clone or a package is, no program can know else
     if command is not None:
         with Exec(command, limits) as program:
+            if peer is not None:
+                program.NOT_PROMISED = peer_named(peer).not_promised()
             yield InProcess(program)
     elif adapter is None or isinstance(adapter, str):
         with Isolated(adapter or REFERENCE, limits) as worker:

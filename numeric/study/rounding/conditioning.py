@@ -201,20 +201,22 @@ class ModelError:
         return bounds
 
     def markov(self, count: int) -> Array:
-        """Return a bound for every entry of the Markov parameters D, CB, ..., (count, p, n_u), in the data's own units."""
+        """Return a bound for every entry of the Markov parameters D, CB, ..., (count, p, n_u), in the data's own units.
+
+        It is of every order in |dA|, |dB|, |dC|: the first one vanishes for high powers of a nilpotent A.
+        """
         A, B, C = self.model.A, self.model.B, self.model.C
-        bounds = np.empty(count)
-        before = [_norm(C)]  # |C A^k|
-        after = [_norm(B)]  # |A^k B|
-        row, column = C, B
-        for k in range(count):
-            bounds[k] = self.D
-            if k > 0:
-                bounds[k] = self.C * after[k - 1] + before[k - 1] * self.B
-                bounds[k] += self.A * sum(before[j] * after[k - 2 - j] for j in range(k - 1))
-            row, column = row @ A, A @ column
-            before.append(_norm(row))
-            after.append(_norm(column))
+        bounds = np.full(count, self.D)
+        power = np.eye(self.model.n)
+        before, rest = list[float](), list[float]()  # |(C + dC) A^k|, |(A + dA)^k (B + dB)| at most
+        powers = list[float]()  # |A^k|
+        for k in range(count - 1):
+            powers.append(_norm(power))
+            row, column = _norm(C @ power), _norm(power @ B)
+            before.append(row + self.C * powers[k])
+            rest.append(column + self.B * powers[k] + self.A * sum(powers[j] * rest[k - 1 - j] for j in range(k)))
+            bounds[k + 1] = self.C * column + before[k] * self.B + self.A * sum(before[j] * rest[k - 1 - j] for j in range(k))
+            power = A @ power
         units = self.scale[:, np.newaxis] / self.input_scale
         return np.asarray(bounds[:, np.newaxis, np.newaxis] * units)
 

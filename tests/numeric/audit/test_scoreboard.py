@@ -32,6 +32,7 @@ from faultspace.numeric.audit.scoreboard.records import Audited, Board
 from faultspace.numeric.audit.scoreboard.reproducers import KEPT, path, text
 from faultspace.numeric.audit.vectors.shipped_vectors import shipped
 from faultspace.numeric.audit.vectors.trouble import default_troubles
+from tests.numeric.audit.test_peers import EXCLUDING, few_block_rows
 from tests.thorough import every
 
 ROOM = Path(__file__).resolve().parents[3] / "numeric" / "audit"
@@ -72,6 +73,18 @@ def test_the_file_is_of_the_checks_that_there_are() -> None:
         ("fault_id", "fault-dimension-noisy"),
         ("fault_id-threshold", "window-ranks"),
     }
+
+
+def test_nobody_is_accused_of_what_its_documents_exclude() -> None:
+    """Exact recovery with as many states as block rows, by name and by number of checks; a coloured fault."""
+    few = {name.partition("[")[2].partition("]")[0] for name in few_block_rows()}
+    asked = sum((one.function, one.slug) == ("identify", "exact-recovery") for one in all_checks()) - len(few)
+    for audited in BOARD.audited:
+        failed = {one.slug: one for one in audited.failed if one.function == "identify"}
+        if audited.name in (*EXCLUDING, "nfoursid"):
+            assert "consistent-under-coloured-fault" not in failed, audited.name
+        if audited.name in EXCLUDING and "exact-recovery" in failed:
+            assert failed["exact-recovery"].asked <= asked and failed["exact-recovery"].vector not in few, audited.name
 
 
 def test_tallies_count_and_show_the_first_failure() -> None:

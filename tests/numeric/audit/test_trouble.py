@@ -27,6 +27,8 @@ from faultspace.numeric.audit.vectors.fault_vectors import in_channel_units, sam
 from faultspace.numeric.audit.vectors.rationals import floats, fractions, matrix
 from faultspace.numeric.audit.vectors.shipped_vectors import shipped
 from faultspace.numeric.audit.vectors.trouble import SEED, VERSION, Trouble, default_troubles, document, fingerprint
+from faultspace.numeric.method.model.models import StateSpaceModel
+from faultspace.numeric.study.rounding.conditioning import ModelError
 from tests.thorough import every
 
 SHIPPED = json.loads(files("faultspace.numeric.audit.vectors").joinpath("data/trouble.json").read_text("utf-8"))
@@ -277,6 +279,18 @@ def test_the_bound_of_a_chain_in_closed_form(length: int) -> None:
     J = np.diag([0.5] * length) + np.diag([1.0] * (length - 1), 1)
     (bound,) = {*eigenvalue_bounds(J, 1e-12, [0.5] * length)}
     assert 1e-12 ** (1 / length) <= bound < 2 * 1e-12 ** (1 / length)
+
+
+def test_of_a_nilpotent_system_the_first_order_is_not_all() -> None:
+    """Markov parameters of A moved by d stay within their bounds, also those in which the first order vanishes."""
+    A, B, C = np.diag([1.0, 1.0], 1), np.array([[0.0], [0.0], [1.0]]), np.array([[1.0, 0.0, 0.0]])
+    moved = 1e-6
+    error = ModelError(StateSpaceModel(A, B, C, np.zeros((1, 1))), np.ones(1), np.ones(1), moved, moved, 0.0, 0.0, 0.0)
+    corner = np.zeros((3, 3))
+    corner[2, 0] = moved
+    powers = [np.linalg.matrix_power(A + corner, k) - np.linalg.matrix_power(A, k) for k in range(12)]
+    off = np.array([abs((C @ power @ B).item()) for power in powers])
+    assert off[8] == pytest.approx(moved**2, rel=0.01, abs=0.0) and np.all(off <= error.markov(13)[1:, 0, 0])
 
 
 def test_rounding_moves_no_zero_beyond_its_bound() -> None:
