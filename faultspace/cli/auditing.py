@@ -11,6 +11,7 @@ export, reproduce   the checks as files and a check as a script, for those who d
 from __future__ import annotations
 
 import json
+import shlex
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -86,7 +87,10 @@ def saved(file: Path, asked: Asked, expected: Path | None) -> Audit:
             "--from reports what was asked before, and asks nothing: leave the adapter, --exec, --peer, --seed and --quick out, or leave "
             "--from out and ask again"
         )
-    found = Audit.from_json(read_json(str(file)))
+    try:
+        found = Audit.from_json(read_json(str(file)))
+    except InvalidInput as error:
+        raise InvalidInput(f"{error}; try: faultspace audit --json > {shlex.quote(str(file))}") from None
     for name in asked.only:
         if not any(named(one, name) for one in found):
             raise InvalidInput(f"check {name}: {quote_path(str(file))} has no result of that name, expected one that -vv prints of it")

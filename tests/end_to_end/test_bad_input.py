@@ -189,7 +189,7 @@ def test_a_source_without_end_is_not_read_to_its_end() -> None:
 
 
 def test_what_does_not_fit_into_memory(monkeypatch: pytest.MonkeyPatch) -> None:
-    def exhausted(_: object) -> None:
+    def exhausted(*_: object, **__: object) -> None:
         raise MemoryError
 
     monkeypatch.setattr("faultspace.cli.inspecting.analyze", exhausted)

@@ -338,10 +338,10 @@ def test_an_interrupted_run_leaves_files_that_the_next_one_knows(tmp_path: Path,
             assert folders.replace(made, out, names) == ["a", "b"]
     real = os.replace
 
-    def stopping(source: Path, target: Path) -> None:
+    def stopping(source: Path, target: Path, **descriptors: int) -> None:
         if Path(target).name == "b":
             raise KeyboardInterrupt
-        real(source, target)
+        real(source, target, **descriptors)
 
     monkeypatch.setattr("os.replace", stopping)
     with pytest.raises(KeyboardInterrupt):

@@ -109,7 +109,7 @@ def test_every_way_makes_the_same_record(
         made_of.append(record)
         raise InvalidData("seen")
 
-    monkeypatch.setattr(pipeline, "_findings", findings)
+    monkeypatch.setattr(pipeline, "_in_range", findings)
     with pytest.raises(InvalidData, match="seen"):
         way(*data, tmp_path)
     (record,) = made_of
