@@ -85,12 +85,12 @@ def test_right_code_in_octave_passes() -> None:
         ("plain.py", "x = A @ x + F @ v[k]", "x = A @ x", "reconstruct"),
         ("plain.py", "D = np.vstack([D[:rank], B[free:]])", "D = np.vstack([D[:rank], 0 * B[free:]])", "structure"),
         ("plain.py", "return int(together - m)", "return int(together)", "count_faults"),
-        ("other.py", "gamma.T @ first, gamma[:p]", "gamma.T @ first * 1.001, gamma[:p]", "identify"),
+        ("other.py", "reshape(s * p, m), gamma[:p]", "reshape(s * p, m) * 1.001, gamma[:p]", "identify"),
         ("other.py", "power, d = power @ power, 2 * d", "power, d = power, 2 * d", "residual"),
         ("other.py", "return p - inputs - len(found), False", "return p - inputs - len(found) + 1, False", "fault_dimension"),
         ("other.py", "M = row @ C + M @ A", "M = row @ C", "fault_space"),
         ("other.py", "z = target @ seen", "z = 0 * target @ seen", "reconstruct"),
-        ("other.py", "zeros = np.linalg.eigvals(X[c:, c:])", "zeros = np.linalg.eigvals(X[c:, c:] * 1.001)", "structure"),
+        ("other.py", "np.linalg.eigvals(X[c:, c:])]", "np.linalg.eigvals(X[c:, c:] * 1.001)]", "structure"),
     ],
 )
 def test_the_same_code_with_a_line_wrong_fails(tmp_path: Path, name: str, line: str, wrong: str, function: str) -> None:

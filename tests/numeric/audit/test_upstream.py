@@ -382,18 +382,26 @@ SCRIPTED = (
 )
 
 
+def _ours(check: Check) -> Any:
+    """Return what our own code answers, or None where it refuses, as it must or may."""
+    try:
+        arguments = [one.value for one in question(check).calls[0].arguments]
+        return None if check.kind is Demand.MUST_REFUSE else getattr(reference, check.function)(*arguments)
+    except InvalidData:
+        return None
+
+
 @pytest.mark.programs
 @octave
 @pytest.mark.parametrize("name", SCRIPTED)
 def test_a_script_in_octave_says_right_of_what_is_right_and_wrong_of_what_is_wrong(name: str, tmp_path: Path) -> None:
     (check,) = chosen(FUNCTIONS, [name])
     (tmp_path / "bug.m").write_text(script(name, FUNCTIONS, "octave"), "utf-8")
-    if check.kind is Demand.MUST_REFUSE:
+    answer = _ours(check)
+    if answer is None:
         right = f"function [A, B, C, D] = {check.function}(varargin)\n  error('no');\nend\n"
         wrong = _octave_function("identify", (np.eye(2),) * 4)
     else:
-        arguments = [one.value for one in question(check).calls[0].arguments]
-        answer = getattr(reference, check.function)(*arguments)
         spoilt_answer = spoilt(answer)
         if isinstance(spoilt_answer, dict):
             spoilt_answer = type(answer)(**spoilt_answer)

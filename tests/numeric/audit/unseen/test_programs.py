@@ -65,7 +65,7 @@ def test_nothing_gets_away(tmp_path: Path, one: Program) -> None:
     with Exec([sys.executable, str(file)], Limits(seconds=20.0 if one.name in EATS else 3.0, memory=1 << 30)) as program:
         found = audit(program, only=asked)
     assert found.failed, f"{one.wrong} Nobody noticed."
-    assert re.search(TOLD[one.name], found.failed[0].detail), found.failed[0].detail
+    assert any(re.search(TOLD[one.name], each.detail) for each in found.failed), found.failed
     time.sleep(0.3)
     assert marked(program) == []
 
