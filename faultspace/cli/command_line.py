@@ -130,7 +130,7 @@ def verify(
     verbose: Verbose = False,
     json: Json = False,
 ) -> int:
-    """Decide the claims of the paper, as its review states them.
+    """Decide the claims of the paper.
 
     A claim gets a line; -v adds the long tables, --claim prints a page of one. Exit 0 if every verdict is the expected one, else 1.
     """
