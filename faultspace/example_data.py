@@ -35,7 +35,7 @@ G = np.array([[0.4], [0.0], [1.0]])
 
 @dataclass(frozen=True, eq=False)
 class FaultyRecord:
-    """U (N, 2), y (N, 3), and the fault signal v (N, 1) that nobody measures."""
+    """u (N, 2), y (N, 3), and the fault signal v (N, 1) that nobody measures."""
 
     u: Array
     y: Array

@@ -91,7 +91,7 @@ class ZeroFeedthrough(Shown):
 
     @property
     def finite_zeros(self) -> int:
-        """N_f of the system."""
+        """n_f of the system."""
         return len(self.own.polynomial) - 1
 
     def to_json(self) -> dict[str, Any]:

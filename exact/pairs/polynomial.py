@@ -64,12 +64,12 @@ class Exceptional(Shown):
 
     @property
     def columns(self) -> int:
-        """R, the number of columns of every P: the normal rank, which is m where the system is left-invertible."""
+        """r, the number of columns of every P: the normal rank, which is m where the system is left-invertible."""
         return self.kernel.normal_rank
 
     @property
     def n_z(self) -> int:
-        """N_z = r + zeta, the number of rows of every P."""
+        """n_z = r + zeta, the number of rows of every P."""
         return self.space.dimension
 
     @property
@@ -104,7 +104,7 @@ class Exceptional(Shown):
 
     @property
     def left_degrees(self) -> tuple[int, ...]:
-        """K_1 <= ... <= k_r."""
+        """k_1 <= ... <= k_r."""
         return tuple(row.nrows - 1 for row in self.left_kernel)
 
     @cached_property

@@ -47,7 +47,7 @@ class FaultSpace(Shown):
 
     @property
     def dimension(self) -> int:
-        """N_z at this window."""
+        """n_z at this window."""
         return self.basis.nrows
 
     @property

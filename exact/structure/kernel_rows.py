@@ -79,7 +79,7 @@ class KernelRepresentation(Shown):
 
     @property
     def normal_rank(self) -> int:
-        """R, the normal rank of C (qI - A)^-1 F + G."""
+        """r, the normal rank of C (qI - A)^-1 F + G."""
         return self.system.p - len(self.rows)
 
     @property

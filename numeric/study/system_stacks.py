@@ -31,7 +31,7 @@ PLACE, APART, CONDITION = 1e-8, 1e-2, 1e6
 
 @dataclass(frozen=True, eq=False)
 class SystemStack:
-    """K systems as `StudySystem` has them: A (k, n, n), B (k, n, n_u), C (k, p, n), D (k, p, n_u), F (k, n, n_v), G (k, p, n_v),
+    """k systems as `StudySystem` has them: A (k, n, n), B (k, n, n_u), C (k, p, n), D (k, p, n_u), F (k, n, n_v), G (k, p, n_v),
     `zeros` (k, z) in ascending order, Z (k, n + p, n_v + z)."""
 
     A: Array

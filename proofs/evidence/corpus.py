@@ -132,7 +132,7 @@ class Evidence:
 
     @property
     def finite_zeros(self) -> int:
-        """N_f, the number of finite invariant zeros with multiplicity."""
+        """n_f, the number of finite invariant zeros with multiplicity."""
         return len(self.invariant_zero_polynomial) - 1
 
     @property

@@ -66,7 +66,7 @@ class Batch(Many):
 
     @property
     def sizes(self) -> Mapping[str, tuple[int, int, int]]:
-        """N, m, p."""
+        """The sizes n, m, p of the one system."""
         return {"": (self.n, self.m, self.p)}
 
     @property

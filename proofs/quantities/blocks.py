@@ -49,7 +49,7 @@ class Scalars:
 
     @property
     def degree(self) -> int:
-        """D, the degree of the field."""
+        """d, the degree of the field."""
         return int(self.values.shape[1])
 
     def matrices(self, places: Integers, rows: int, columns: int) -> Integers:

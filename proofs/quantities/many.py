@@ -131,7 +131,7 @@ class Both(Many):
 
     @property
     def sizes(self) -> Mapping[str, tuple[int, int, int]]:
-        """N, m, p of both systems."""
+        """n, m, p of both systems."""
         return {name: (one.n, one.m, one.p) for name, one in zip(self.called, (self.first, self.second), strict=True)}
 
     def systems(self, subject: str) -> tuple[Any, Chosen]:

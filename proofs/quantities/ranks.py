@@ -72,7 +72,7 @@ class Ranks:
 
     @property
     def left_minimal_indices(self) -> tuple[int, ...]:
-        """Ascending."""
+        """The left minimal indices, ascending."""
         return self.indices(WINDOW, self.p)
 
     @property

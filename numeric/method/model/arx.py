@@ -54,7 +54,7 @@ class Arx:
 
     @property
     def order(self) -> int:
-        """H, the number of lags."""
+        """h, the number of lags."""
         return len(self.outputs) - 1
 
     def plant(self, angles: Array) -> ComplexArray:

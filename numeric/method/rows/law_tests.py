@@ -66,7 +66,7 @@ SEED = 20251122
 
 @dataclass(frozen=True, eq=False)
 class Laws:
-    """K = `count` rows: `fit` has the total degree n, and `gain` is what rows of degree n + EXTRA gain, in nats.
+    """k = `count` rows: `fit` has the total degree n, and `gain` is what rows of degree n + EXTRA gain, in nats.
 
     The noise `shares` (p,) have the mean logarithm zero and are in the units of the moments. `flatness` is the probability of such a gain,
     if the rows are laws; `probability` is that of ratios as large: of one row that of its flatness, of several twice the smaller one of
