@@ -18,7 +18,7 @@ from ...exact.algebra.matrices import Matrix
 from ...exact.limits.experiments import Experiment
 from ...exact.limits.moesp import limit
 from ...exact.system.systems import ResidualSystem
-from ..claims.proposition_1 import show_words
+from ..claims.experiments import show_words
 from ..evidence.experiments import LIMITS, LimitEvidence, examine_experiment, first_look
 from ..evidence.material import Material
 from ..trust import structure_certificates as make

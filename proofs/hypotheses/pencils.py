@@ -25,8 +25,8 @@ from ...exact.structure.fault_columns import with_pair
 from ...exact.structure.pencil import infinite_zero_orders
 from ...exact.system.systems import ResidualSystem
 from ..boxes.box import Box, in_order, matrices_in_order
-from ..claims.one_determinant import agrees
-from ..claims.one_determinant import show as show_pair
+from ..claims.pairs import agrees
+from ..claims.pairs import show as show_pair
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.kept_kernels import kernel_once
 from ..evidence.material import Material

@@ -10,7 +10,7 @@ from faultspace.base.progress import silent
 from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.pairs.witnesses import BadPair, bad_pair, good_columns
 from faultspace.exact.system.systems import ResidualSystem
-from faultspace.proofs.claims import bad_set, canonical_form, one_determinant, sharp_windows, zero_assignment, zeros_of_pairs
+from faultspace.proofs.claims import pairs, windows
 from faultspace.proofs.evidence.alternatives import ALTERNATIVES
 from faultspace.proofs.evidence.families import adversarial
 from faultspace.proofs.evidence.pairs_by_polynomial import PAIRS_BY_POLYNOMIAL, PairByPolynomial, examine_by_polynomial, pencil_of
@@ -41,8 +41,8 @@ def good_and_bad() -> tuple[PairByPolynomial, PairByPolynomial]:
 
 def test_a_good_and_a_bad_pair_of_full_column_rank() -> None:
     good, bad = good_and_bad()
-    assert good.equal and good.polynomial and one_determinant.agrees(good)
-    assert not bad.equal and not bad.polynomial and bad.full_column_rank and one_determinant.agrees(bad)
+    assert good.equal and good.polynomial and pairs.agrees(good)
+    assert not bad.equal and not bad.polynomial and bad.full_column_rank and pairs.agrees(bad)
 
 
 @pytest.mark.parametrize(
@@ -52,53 +52,58 @@ def test_a_good_and_a_bad_pair_of_full_column_rank() -> None:
 )
 def test_what_is_tampered_with_no_longer_agrees(change: dict[str, object]) -> None:
     good, bad = good_and_bad()
-    assert not one_determinant.agrees(replace(good, **change))  # type: ignore[arg-type]
-    assert not one_determinant.agrees(replace(bad, equal=True)) and not one_determinant.agrees(replace(bad, pair_normal_rank=2))
+    assert not pairs.agrees(replace(good, **change))  # type: ignore[arg-type]
+    assert not pairs.agrees(replace(bad, equal=True)) and not pairs.agrees(replace(bad, pair_normal_rank=2))
 
 
 def test_readings_are_refuted_by_tampered_pairs(bench: Workbench) -> None:
     spoilt = Workbench("quick", 1, silent)
     spoilt.pairs_by_polynomial = tuple(replace(d, equal=not d.equal, zeta=d.zeta + 1) for d in bench.pairs_by_polynomial)
-    for reading in (one_determinant.formula, zeros_of_pairs.number, bad_set.one_fault, zero_assignment.every_polynomial):
+    for reading in (
+        pairs.one_determinant_formula,
+        pairs.zeros_of_pairs_number,
+        pairs.bad_set_one_fault,
+        pairs.zero_assignment_every_polynomial,
+    ):
         assert reading(bench).verdict == Verdict.CERTIFIED, reading
         assert reading(spoilt).verdict in (Verdict.REFUTED, Verdict.ERROR), reading
 
 
 def test_counterexamples_are_found_and_true_by_the_oracle(bench: Workbench) -> None:
-    for reading in (zeros_of_pairs.split, bad_set.codimension_unobservable, zero_assignment.without_observability):
+    for reading in (pairs.zeros_of_pairs_split, pairs.bad_set_codimension_unobservable, pairs.zero_assignment_without_observability):
         outcome = reading(bench)
         assert outcome.verdict == Verdict.REFUTED and outcome.certificates
         assert all(truth(c["kind"], c["statement"]) for c in outcome.certificates)
-    for reading in (canonical_form.any_a_c, canonical_form.feedback):
+    for reading in (pairs.canonical_form_any_a_c, pairs.canonical_form_feedback):
         outcome = reading(bench)
         assert outcome.verdict == Verdict.REFUTED
         assert all(truth(c["kind"], c["statement"]) for c in outcome.certificates)
 
 
 def test_names_broken_on_purpose_are_noticed(bench: Workbench, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert canonical_form.same_a_c(bench).verdict == Verdict.CERTIFIED
-    monkeypatch.setattr(canonical_form, "_fault_class", lambda system: system.F)
-    assert canonical_form.same_a_c(bench).verdict == Verdict.REFUTED
+    assert pairs.canonical_form_same_a_c(bench).verdict == Verdict.CERTIFIED
+    monkeypatch.setattr(pairs, "fault_class", lambda kernel: kernel.system.F)
+    assert pairs.canonical_form_same_a_c(bench).verdict == Verdict.REFUTED
 
 
 def test_every_left_invertible_named_system_with_a_fault_and_a_lag_has_a_late_partner() -> None:
     for _, system in adversarial():
         kernel = pencil_of(system).kernel
         if kernel.normal_rank == system.m > 0 and kernel.lag:
-            partner = sharp_windows._partner(kernel)
+            partner = windows._partner(kernel)
             assert partner is not None and (partner.system.A, partner.system.C) == (system.A, system.C), system
 
 
 def test_a_line_of_good_pairs_is_found_where_the_codimension_is_two() -> None:
     pencil = pencil_of(ResidualSystem.of([[0]], [[1, 0]], [[1], [0]], [[0, 0], [0, 1]]))
-    line = bad_set._line(pencil)
+    line = pairs._line(pencil)
     assert line is not None and truth(line["kind"], line["statement"])
     hypersurface = pencil_of(ResidualSystem.of([[0]], [[1, 0]], [[0], [0]], [[1, 0], [0, 1]]))
-    assert bad_set._line(hypersurface) is None, "every line meets a hypersurface, over the closure"
+    assert pairs._line(hypersurface) is None, "every line meets a hypersurface, over the closure"
 
 
 def test_a_p_of_deficient_rank_is_bad() -> None:
     system = ResidualSystem.of([[0]], [[1, 0]], [[1], [0]], [[0, 0], [0, 1]])
     pencil = pencil_of(system)
     found = examine_by_polynomial("named", "deficient", system, Matrix.zero(system.field, pencil.n_z, pencil.columns), None, 1)
-    assert not found.full_column_rank and not found.polynomial and one_determinant.agrees(found)
+    assert not found.full_column_rank and not found.polynomial and pairs.agrees(found)

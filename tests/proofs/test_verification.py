@@ -8,6 +8,7 @@ from faultspace.base.errors import InvalidInput
 from faultspace.base.progress import silent
 from faultspace.proofs import verification
 from faultspace.proofs.brought.readings import decide_reading
+from faultspace.proofs.claims import check_of
 from faultspace.proofs.evidence.corpus import CORPUS, examine
 from faultspace.proofs.evidence.questions import RANKS
 from faultspace.proofs.trust import checker
@@ -90,7 +91,7 @@ def test_a_check_that_does_not_finish_is_an_error_and_the_others_go_on(monkeypat
     def broken(bench: Workbench) -> Outcome:
         raise RuntimeError("interrupted")
 
-    monkeypatch.setattr("faultspace.proofs.claims.example_v.one_fault", broken)
+    monkeypatch.setattr("faultspace.proofs.claims.example_v.example_v_one_fault", broken)
     report = verify(["example-v"], jobs=1)
     verdicts = {r.reading.id: r.outcome for c in report.claims for r in c.readings}
     assert verdicts["one-fault"].verdict == Verdict.ERROR and "interrupted" in verdicts["one-fault"].evidence
@@ -170,7 +171,8 @@ def test_a_check_that_several_readings_share_is_run_once(monkeypatch: pytest.Mon
     names = {reading.check for claim in load() if claim.id in ("proposition-3", "settle-2") for reading in claim.readings}
     for name in names:
         if not name.startswith(f"{IN_LANGUAGE}."):
-            monkeypatch.setattr(f"faultspace.proofs.claims.{name}", found)
+            check = check_of(name)
+            monkeypatch.setattr(f"{check.__module__}.{check.__name__}", found)
     monkeypatch.setattr("faultspace.proofs.brought.readings.decide_reading", lambda bench, _: found(bench))
     monkeypatch.setattr(verification, "ablations", tuple)
     report = verify(["proposition-3", "settle-2"], jobs=1)
@@ -189,7 +191,7 @@ def test_a_counterexample_witnesses_the_opposite_and_an_error_stays_one(found: V
 
 @pytest.mark.parametrize("verdict", [Verdict.CERTIFIED, Verdict.REFUTED])
 def test_a_verdict_without_an_accepted_certificate_is_an_error(verdict: Verdict, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("faultspace.proofs.claims.example_v.one_fault", lambda bench: Outcome(verdict, "on nothing"))
+    monkeypatch.setattr("faultspace.proofs.claims.example_v.example_v_one_fault", lambda bench: Outcome(verdict, "on nothing"))
     report = verify(["example-v"], jobs=1)
     (found,) = (r.outcome for c in report.claims for r in c.readings if r.reading.id == "one-fault")
     assert found.verdict == Verdict.ERROR and "no certificate was accepted" in found.evidence
