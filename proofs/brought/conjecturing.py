@@ -2,6 +2,12 @@
 
 conjecture        bounds on a quantity by others: what `fs.conjecture` is
 sharpen           bounds in the place of a claim's, over each of its fields
+default_columns   what bounds are sought by where nothing is named: of systems all integer quantities and the ranks of A, F, C, G;
+                  of other kinds those of USUAL
+
+The values that quantities of two systems take together are many more than those of one: with all quantities of both, a box of pairs has
+more sets of values than a machine holds. What two systems share, since they have the same A and C or as many outputs, is named once. Ranks
+of data are taken at 1 sample and at n + 1, from which on those of systems are settled.
 """
 
 from __future__ import annotations
@@ -23,10 +29,10 @@ from ..language.evaluating import Asked
 from ..language.grammar import OF_A_MATRIX
 from ..language.linear import linear, words
 from ..language.nodes import Node
-from ..language.vocabularies import SYSTEM, VOCABULARIES
+from ..language.vocabularies import CHOICE, ONE_A_AND_C, PAIR, RECORD, SYSTEM, VOCABULARIES
 from ..quantities.cases import Case
 from ..quantities.elimination import Integers
-from ..quantities.registry import Kind
+from ..quantities.registry import Kind, quantities
 from .bounds import ABOVE, BELOW, Fit, Fitted, Form, Grammar, fit
 from .claims import Claim, about_what, expression, make_claim
 from .conjectures import Bound, Conjectures, Evidence, Sharpened, Sharper
@@ -35,11 +41,28 @@ from .known_bounds import known_as
 from .sparse_systems import Found, withstand
 from .tables import Row, Table, tabulate
 from .theorems import proof_of
-from .usual_columns import default_columns
 
 MOST = 10**9
 MOST_COLUMNS, MOST_TERMS, LARGEST_COEFFICIENT, LARGEST_CONSTANT, MOST_EQUAL = 40, 3, 3, 9, 5
 SIGNS = {ABOVE: "<=", BELOW: ">="}
+SIZES = ("n", "m", "p")
+RANKS = ("rank(A)", "rank(F)", "rank(C)", "rank(G)")
+USUAL = {
+    PAIR: ("p", "first_difference", *(f"{one}.{name}" for one in ("first", "second") for name in ("n", "m", "lag", "normal_rank", "n_z"))),
+    ONE_A_AND_C: (
+        *("n", "p", "first_difference", "first.observability_index"),
+        *(f"{one}.{name}" for one in ("first", "second") for name in ("m", "lag", "normal_rank", "n_z")),
+    ),
+    CHOICE: (
+        *("n", "m", "p", "k", "first_difference", "rank(P)", "observability_index"),
+        *(before + name for before in ("", "chosen.") for name in ("lag", "normal_rank", "n_z")),
+    ),
+    RECORD: (
+        *("n", "p", "nu", "N", "rank(B)", "rank(D)"),
+        *(f"inputs.{name}" for name in ("lag", "normal_rank", "observability_index", "uncontrollable_dimension")),
+        *(f"{name}({s})" for name in ("u_rank", "x_rank", "w_rank", "y_rank") for s in ("1", "n + 1")),
+    ),
+}
 
 
 @dataclass(frozen=True)
@@ -359,3 +382,10 @@ def _number(value: object, name: str, least: int, most: int) -> int:
     if type(value) is not int or not least <= value <= most:
         raise InvalidInput(f"{name}: got {shorten(value)}, expected an integer from {least} to {most}")
     return value
+
+
+def default_columns(target: Node, about: str = SYSTEM) -> list[str]:
+    """Return them, but for what the target is a sum of; sizes stay."""
+    of_systems = (*sorted(one.name for one in quantities().values() if one.kind == Kind.INTEGER and not one.windowed), *RANKS)
+    inside = set(linear(target).multiples)
+    return [name for name in USUAL.get(about, of_systems) if name not in inside or (name in SIZES and name != target.text)]

@@ -19,7 +19,7 @@ from ...exact.structure.fault_columns import fault_space
 from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import PairEvidence, comparison_certificate
 from ..evidence.corpus import Evidence
-from ..evidence.kept_kernels import kernel_once
+from ..evidence.subjects import kernel_once
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict

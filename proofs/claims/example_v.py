@@ -10,7 +10,7 @@ from functools import cache
 from ...exact.algebra.matrices import Matrix
 from ...exact.structure.fault_columns import fault_space
 from ..evidence.families import paper_example
-from ..evidence.kept_kernels import kernel_once
+from ..evidence.subjects import kernel_once
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict

@@ -35,9 +35,8 @@ from ..evidence.experiments import (
     following,
     leading,
 )
-from ..evidence.kept_experiments import WITHOUT_RANK, kept
-from ..evidence.seasonal_inputs import BOX as BOX_OF_PERIOD
-from ..evidence.seasonal_inputs import in_order, seasonal
+from ..evidence.refuting_experiments import BOX as BOX_OF_PERIOD
+from ..evidence.refuting_experiments import WITHOUT_RANK, in_order, kept, seasonal
 from ..trust.limit_certificates import certificates_of
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict

@@ -35,8 +35,8 @@ from ...exact.system.systems import ResidualSystem
 from ..boxes.box import Box, in_order, matrices_in_order
 from ..evidence.alternatives import AlternativeEvidence, comparison_certificate, ranked
 from ..evidence.families import adversarial, random_systems
-from ..evidence.kept_kernels import kernel_once
 from ..evidence.pairs_by_polynomial import PairByPolynomial, pencil_of
+from ..evidence.subjects import kernel_once
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, Unprovable, accept
 from ..verdict.verdicts import Outcome, Verdict

@@ -25,8 +25,8 @@ from ...exact.system.windows import observability_matrix
 from ..boxes.box import Box, in_order
 from ..evidence.corpus import Evidence
 from ..evidence.families import adversarial, random_systems
-from ..evidence.kept_kernels import kernel_once
 from ..evidence.questions import DELAY_UNKNOWN_STATE, FINITE_ZEROS, OBSERVABILITY, RANKS, SPACE, ZEROS
+from ..evidence.subjects import kernel_once
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, sha256
 from ..verdict.verdicts import Outcome, Verdict

@@ -29,9 +29,9 @@ from ..boxes.box import Box, grouped, in_order
 from ..evidence.alternatives import PAIRS, PairEvidence, comparison_certificate
 from ..evidence.corpus import CORPUS, Evidence
 from ..evidence.families import adversarial, paper_example, random_systems, shift_registers
-from ..evidence.kept_kernels import kernel_once
 from ..evidence.parametric import gap_claim, inclusion_claim, zero_count_claim
 from ..evidence.questions import MINIMAL, RANKS, WINDOW_SPACES, WINDOWS, ZEROS
+from ..evidence.subjects import kernel_once
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept, sha256
 from ..verdict.verdicts import Outcome, Verdict

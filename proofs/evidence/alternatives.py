@@ -30,8 +30,8 @@ from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
 from .exhaustive import all_systems, orbits
 from .families import adversarial, random_systems, shift_registers
-from .kept_kernels import kernel_once, space_once
 from .material import Material
+from .subjects import kernel_once, space_once
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,7 @@ from ...exact.system.windows import observability_matrix, reachability_matrix
 from ..trust.limit_certificates import certificates_of
 from ..trust.structure_certificates import accept
 from .material import Material
-from .seasonal_inputs import in_order, seasonal
+from .refuting_experiments import in_order, seasonal
 
 Rows = list[list[str]]
 

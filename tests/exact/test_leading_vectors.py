@@ -11,7 +11,7 @@ from faultspace.exact.algebra.matrices import Matrix, column_basis, left_null_sp
 from faultspace.exact.limits.leading_vectors import leading_vectors_span
 from faultspace.exact.limits.moesp import limit
 from faultspace.proofs.evidence.experiments import examine_experiment
-from faultspace.proofs.evidence.kept_experiments import WITHOUT_RANK, kept
+from faultspace.proofs.evidence.refuting_experiments import WITHOUT_RANK, kept
 
 
 def floats(matrix: Matrix) -> np.ndarray:

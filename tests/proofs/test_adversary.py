@@ -27,10 +27,9 @@ from faultspace.proofs.adversary.catalogue import catalogue, expected_of, statem
 from faultspace.proofs.adversary.engine import pursue
 from faultspace.proofs.adversary.float_limits import exact_experiment, float_limits
 from faultspace.proofs.adversary.following import Trace
-from faultspace.proofs.adversary.limit_attacks import led_family, open_family, shaped_family
+from faultspace.proofs.adversary.limit_attacks import led_family, open_family, shaped_family, shaped_input
 from faultspace.proofs.adversary.results import AttackRecord, certified, checked_again, refuting, run_attacks, stored
 from faultspace.proofs.adversary.rounding import rational_roots, solve_affine
-from faultspace.proofs.adversary.spectra import shaped_input
 from faultspace.proofs.evidence.attacks import Attack, Attacked, Floats
 from faultspace.proofs.trust import checker
 from faultspace.proofs.verdict.ledger import load

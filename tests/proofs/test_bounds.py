@@ -23,11 +23,10 @@ from faultspace.proofs.brought import conjecturing, sparse_systems, tables
 from faultspace.proofs.brought.bounds import ABOVE, BELOW, Fit, Fitted, Form, Grammar, Term, fit, forms
 from faultspace.proofs.brought.claims import Answered, make_box, make_claim
 from faultspace.proofs.brought.conjectures import Bound, Conjectures, Sharpened
-from faultspace.proofs.brought.conjecturing import sharpen
+from faultspace.proofs.brought.conjecturing import default_columns, sharpen
 from faultspace.proofs.brought.direct_sums import direct_sums
 from faultspace.proofs.brought.known_bounds import at_most_zero, known_as
-from faultspace.proofs.brought.known_systems import known_systems
-from faultspace.proofs.brought.usual_columns import default_columns
+from faultspace.proofs.brought.known_cases import known_systems
 from faultspace.proofs.language.evaluating import Exactly, evaluate
 from faultspace.proofs.language.grammar import read
 from faultspace.proofs.language.linear import Linear, linear, words

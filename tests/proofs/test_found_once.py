@@ -13,7 +13,7 @@ from faultspace.exact.structure.kernel_rows import KernelRepresentation, kernel_
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.evidence import alternatives, pairs_by_polynomial
 from faultspace.proofs.evidence.families import adversarial, shift_registers
-from faultspace.proofs.evidence.kept_kernels import kernel_once, space_once
+from faultspace.proofs.evidence.subjects import kernel_once, space_once
 from faultspace.proofs.trust import structure_certificates
 from faultspace.proofs.trust.checker import Rejected
 from faultspace.proofs.trust.structure_certificates import Certificate

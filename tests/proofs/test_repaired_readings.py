@@ -21,9 +21,8 @@ from faultspace.proofs.brought.readings import decide_reading
 from faultspace.proofs.evidence.corpus import CORPUS, examine
 from faultspace.proofs.evidence.experiments import LimitEvidence, examine_experiment, nilpotent_points
 from faultspace.proofs.evidence.families import adversarial
-from faultspace.proofs.evidence.kept_experiments import WITHOUT_RANK, kept
 from faultspace.proofs.evidence.questions import FINITE_ZEROS, RANKS
-from faultspace.proofs.evidence.seasonal_inputs import in_order, seasonal
+from faultspace.proofs.evidence.refuting_experiments import WITHOUT_RANK, in_order, kept, seasonal
 from faultspace.proofs.verdict.verdicts import Verdict
 from faultspace.proofs.verdict.workbench import Workbench
 from tests.oracle import truth

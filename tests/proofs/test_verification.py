@@ -137,7 +137,7 @@ def test_a_wrong_shape_of_the_rows_does_not_go_unnoticed(monkeypatch: pytest.Mon
     from faultspace.exact.structure import modular_rows
     from faultspace.exact.system.systems import ResidualSystem
     from faultspace.proofs.claims import example_v
-    from faultspace.proofs.evidence.kept_kernels import kernel_once
+    from faultspace.proofs.evidence.subjects import kernel_once
 
     def without_fault(system: ResidualSystem) -> modular_rows.ModularRows | None:
         return modular_rows.rows_modulo(system.with_faults(Matrix.zero(system.field, system.n, system.m), system.G))
