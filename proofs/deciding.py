@@ -71,8 +71,7 @@ class Without:
         try:
             return ablate(bench, ablation, expected_without()[ablation.name])
         except Exception as error:  # as for a check: it did not finish, and the others go on
-            words = f"{type(error).__name__}: {error}"
-            return (Row(ablation.name, ablation.claim, ablation.conclusion, (), Verdict.ERROR, words, None, (), frozenset()),)
+            return (ablation.row((), Outcome(Verdict.ERROR, f"{type(error).__name__}: {error}")),)
 
     def __str__(self) -> str:
         return f"{self.name} without its hypotheses"
