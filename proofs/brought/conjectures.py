@@ -145,9 +145,9 @@ class Conjectures(Shown):
     that the quantities are found by. Raises nothing by itself.
 
     >>> import faultspace as fs
-    >>> found = fs.conjecture("lag", by=["n", "zeta"], box={"total": 3})
+    >>> found = fs.conjecture("lag", by=["n"], box={"total": 3})
     >>> [one.text for one in found.above], str(found.above[0].first)
-    (['lag <= n - zeta'], 'A=[[-1]], F=[[-1]], C=[[-1]], G=[[-1]]')
+    (['lag <= n'], 'A=[[-1]], F=[[0]], C=[[-1]], G=[[0]]')
     """
 
     target: str
