@@ -38,7 +38,8 @@ from ..quantities.blocks import height
 from ..quantities.cases import Case, Choice, ChoiceSubject, Known, Pair, PairSubject, Record, RecordSubject
 from ..quantities.registry import Subject
 
-LARGEST_STATES, REGISTERS, CHOICES, SEED = 3, 6, 2, 1
+LARGEST_STATES, REGISTERS, CHOICES, RANDOM, DRAWN, SEED = 3, 6, 2, 180, 6, 1
+CORPUS, ADVERSARY = "corpus", "adversary"
 
 
 @dataclass(frozen=True)
@@ -103,15 +104,15 @@ def _record_steps(record: Record) -> Iterator[Record]:
     system, u, x0 = record.system, record.u, record.x0
     residual, B, D = system.residual, system.B, system.D
     for k in range(system.n):
-        rest = [i for i in range(system.n) if i != k]
+        rest = _rest(system.n, k)
         yield Record(FaultySystem(without_state(residual, k), B.rows(rest), D), u, x0.rows(rest))
     for k in range(system.m):
         yield Record(FaultySystem(without_fault(residual, k), B, D), u, x0)
     for k in range(system.p):
-        rest = [i for i in range(system.p) if i != k]
+        rest = _rest(system.p, k)
         yield Record(FaultySystem(without_output(residual, k), B, D.rows(rest)), u, x0)
     for k in range(system.nu):
-        rest = [j for j in range(system.nu) if j != k]
+        rest = _rest(system.nu, k)
         yield Record(FaultySystem(residual, B.columns(rest), D.columns(rest)), u.columns(rest), x0)
     for kept in (range(u.nrows - 1), range(1, u.nrows)) if u.nrows else ():
         yield Record(system, u.rows(kept), x0)
@@ -215,10 +216,6 @@ def _pair_steps(pair: Pair) -> Iterator[Pair]:
             yield Pair(one, second, shared)
 
 
-RANDOM, DRAWN, SEED = 180, 6, 1
-CORPUS, ADVERSARY = "corpus", "adversary"
-
-
 @dataclass(frozen=True)
 class KnownSystem:
     """`origin` is the corpus or the adversary."""
@@ -230,9 +227,7 @@ class KnownSystem:
 @lru_cache(maxsize=4)
 def known_systems(field: Field) -> tuple[KnownSystem, ...]:
     """Return them over a field, over GF(q) integers modulo q; each keeps what is found out about it."""
-    corpus = [system for _, system in adversarial()] + list(islice(random_systems(QQ, RANDOM, seed=SEED), RANDOM))
-    if field != QQ:
-        corpus = [system for _, system in adversarial()] + list(islice(random_systems(field, RANDOM, seed=SEED), RANDOM))
+    corpus = [system for _, system in adversarial()] + list(islice(random_systems(field, RANDOM, seed=SEED), RANDOM))
     listed = [(CORPUS, one) for one in corpus] + [(ADVERSARY, one) for one in _drawn()]
     return tuple(KnownSystem(origin, Subject(over(field, one))) for origin, one in listed if _moves(field, one))
 
@@ -275,19 +270,19 @@ def steps(system: ResidualSystem) -> Iterator[ResidualSystem]:
 
 def without_state(system: ResidualSystem, k: int) -> ResidualSystem:
     """Return the system without its state k."""
-    rest = _others(system.n, k)
+    rest = _rest(system.n, k)
     return ResidualSystem(system.A.rows(rest).columns(rest), system.F.rows(rest), system.C.columns(rest), system.G)
 
 
 def without_fault(system: ResidualSystem, k: int) -> ResidualSystem:
     """Return the system without its fault k."""
-    rest = _others(system.m, k)
+    rest = _rest(system.m, k)
     return ResidualSystem(system.A, system.F.columns(rest), system.C, system.G.columns(rest))
 
 
 def without_output(system: ResidualSystem, k: int) -> ResidualSystem:
     """Return the system without its output k."""
-    rest = _others(system.p, k)
+    rest = _rest(system.p, k)
     return ResidualSystem(system.A, system.F, system.C.rows(rest), system.G.rows(rest))
 
 
@@ -305,7 +300,7 @@ def simpler_matrices(matrix: Matrix) -> Iterator[Matrix]:
             yield Matrix.from_elements(matrix.field, matrix.nrows, matrix.ncols, changed)
 
 
-def _others(count: int, k: int) -> list[int]:
+def _rest(count: int, k: int) -> list[int]:
     return [i for i in range(count) if i != k]
 
 

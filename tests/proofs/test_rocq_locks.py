@@ -13,7 +13,7 @@ import pytest
 from docs.tools.pages import statements
 from faultspace.proofs import verification
 from faultspace.proofs.rocq import locks as rocq_locks
-from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, NotProved, compile_file, compiled_theory
+from faultspace.proofs.rocq.build import BrokenTheory, NotProved, compile_file
 from faultspace.proofs.rocq.locks import held, kept, made, written
 from faultspace.proofs.rocq.sources import THEORY, sources
 from faultspace.proofs.rocq.statements import Headline, read
@@ -98,12 +98,8 @@ def test_headlines_with_one_hypothesis_more_are_not_as_locked() -> None:
 @pytest.mark.programs
 @pytest.mark.mutants
 @pytest.mark.timeout(900)
-def test_the_hypothesis_is_one_that_proofs_alone_do_not_refuse() -> None:
+def test_the_hypothesis_is_one_that_proofs_alone_do_not_refuse(theory: Path) -> None:
     """With the same lemma and one name more in the proof, Rocq accepts it, and closed: what refuses it is the lock."""
-    try:
-        theory = compiled_theory()
-    except NoRocq as reason:
-        pytest.skip(str(reason))
     headline = STATEMENTS.headlines["proposition_3_normal_rank"]
     opening = TEXTS[headline.file].split("(** ** ")[0]
     weakened = with_hypothesis(headline).replace("Proof.", f"Proof. move=> _; {headline.tactics} Qed.")

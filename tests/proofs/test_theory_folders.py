@@ -11,7 +11,6 @@ from pathlib import Path
 
 import pytest
 
-from faultspace.proofs.rocq.build import NoRocq, compiled_theory
 from faultspace.proofs.rocq.sources import THEORY, needs, paths, sources
 
 MOST_FILES = 14
@@ -101,11 +100,7 @@ def named_by_versions() -> dict[str, set[str]]:
 
 
 @pytest.mark.timeout(900)
-def test_every_file_requires_what_it_uses_and_nothing_else() -> None:
-    try:
-        theory = compiled_theory()
-    except NoRocq as reason:
-        pytest.skip(str(reason))
+def test_every_file_requires_what_it_uses_and_nothing_else(theory: Path) -> None:
     required = needs(sources())
     idle = {name: sorted(required[name] - used(theory, name)) for name in required}
     assert {name: files for name, files in idle.items() if files} == {}
