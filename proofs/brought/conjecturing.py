@@ -92,21 +92,40 @@ def conjecture(
 ) -> Conjectures:
     """Seek the sharpest bounds on a quantity of systems x(k+1) = A x + F v, r = C x + G v by other quantities, under hypotheses.
 
-    `target` is an expression of the language of `docs/your-claims.md`, `hypotheses` and `by` are lists of such; without `by` all integer
-    quantities and the ranks of A (n x n), F (n x m), C (p x n), G (p x m) are used. A bound is a sum of at most `terms` of them with
-    coefficients from -`largest` to `largest`, one of which may be the larger (below: the smaller) of two, and a constant from -`constant`
-    to `constant`; `terms` is 3 by default, and 2 where the bounds are about more than one system. What is answered is refuted by no system
-    of the box, no known one, no direct sum of two that stand for others, none of those that are drawn, and none of 90000 sparse ones (fewer
-    where drawing takes 30 s), and attained by a system of the box; none is implied by the others, and wherever a bound of this form is
-    attained in the box, one that is answered is, forms that equal the target everywhere, which are told apart, left aside. The next sharper
-    ones come with the smallest system that refutes them, and its certificates. A bound that follows from theorems of Rocq names them; else
-    none of this is a proof. With `about` "pair", "pair with the same (A, C)", "choice" or "record" the same is done with these, as `claim`
-    does it, in the place of systems. `field`, `box`, `most`, `jobs` and `on_progress` are those of `claim`. Source: [F75], [VD79] for the
-    ranks that the quantities are found by.
+    What is answered is refuted by no system of the box, no known one, no direct sum of two that stand for others, none of those that are
+    drawn, and none of 90000 sparse ones (fewer where drawing takes 30 s), and attained by a system of the box; none is implied by the
+    others, and wherever a bound of this form is attained in the box, one that is answered is, forms that equal the target everywhere, which
+    are told apart, left aside. The next sharper ones come with the smallest system that refutes them, and its certificates. A bound that
+    follows from theorems of Rocq names them; else none of this is a proof. Source: [F75], [VD79] for the ranks that the quantities are
+    found by.
 
-    Raises InvalidInput for what is no expression, for an empty box, where the target is infinite or an expression has no value on a
-    system, or a case of another kind, which is named, and for numbers out of range.
+    Parameters
+    ----------
+    target : str
+        An expression of the language of `docs/your-claims.md`.
+    hypotheses : list of str or callable
+    by : list of str, optional
+        What the bounds are made of; all integer quantities and the ranks of A (n x n), F (n x m), C (p x n), G (p x m) where it is not
+        given.
+    terms, largest, constant : int
+        A bound is a sum of at most `terms` of them with coefficients from -`largest` to `largest`, one of which may be the larger (below:
+        the smaller) of two, and a constant from -`constant` to `constant`; `terms` is 3 by default, and 2 where the bounds are about more
+        than one system.
+    field, box, about, most, jobs, on_progress
+        As for `claim`, with one field.
 
+    Returns
+    -------
+    Conjectures
+
+    Raises
+    ------
+    InvalidInput
+        For what is no expression, for an empty box, where the target is infinite or an expression has no value on a system, or a case of
+        another kind, which is named, and for numbers out of range.
+
+    Examples
+    --------
     >>> import faultspace as fs
     >>> found = fs.conjecture("delay_known", hypotheses=["left_invertible"], by=["n", "rank(G)"], box={"total": 4})
     >>> [one.text for one in found.above], found.above[0].sharper[0].text

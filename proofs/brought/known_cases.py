@@ -22,7 +22,7 @@ from fractions import Fraction
 from functools import lru_cache
 from itertools import combinations, islice, product
 
-from ...exact.algebra.fields import QQ, Field, Rationals
+from ...exact.algebra.fields import Field, Rationals
 from ...exact.algebra.matrices import Matrix
 from ...exact.pairs.witnesses import BadPair, bad_pair
 from ...exact.structure.fault_columns import fault_space, fault_space_dimension, with_pair

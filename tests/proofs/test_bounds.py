@@ -46,8 +46,7 @@ def few_outside(monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest)
     if not all_there:
         monkeypatch.setattr(tables, "MOST_SUMS", 300)
         monkeypatch.setattr(tables, "MOST_MET", 100)
-    if not (all_there and THOROUGH):
-        monkeypatch.setattr(sparse_systems, "BATCHES", 8 if all_there else 1)
+    monkeypatch.setattr(sparse_systems, "BATCHES", (60 if THOROUGH else 8) if all_there else 1)
 
 
 @pytest.fixture
