@@ -31,6 +31,7 @@ from ..evidence.attacks import Family, Point, Witness
 from ..evidence.experiments import LimitEvidence, examine_experiment
 from ..trust.limit_certificates import certificates_of
 from .float_limits import Drawn, exact_experiment
+from .structure_families import cut
 from .witnesses import confirmed
 
 POLE = (-0.97, 0.97)
@@ -143,11 +144,7 @@ def led_family(n: int, p: int, phi: Sequence[int], *, reflections: int = 0, taps
     lead = len(phi) - 1
 
     def at(point: Sequence[Any]) -> Drawn:
-        values = list(point)
-        poles, values = values[:n], values[n:]
-        C, values = [values[i * n : (i + 1) * n] for i in range(p)], values[p * n :]
-        B, values = [[x] for x in values[:n]], values[n:]
-        G, values = [[x] for x in values[:p]], values[p:]
+        (poles,), C, B, G, values = cut(point, (1, n), (p, n), (n, 1), (p, 1))
         u = shaped_input(values[:reflections])
         numerator = [*u.numerator, *values[reflections:]] if taps else list(u.numerator)
         fault: list[Any] = [0] * (len(numerator) + lead)
@@ -181,13 +178,7 @@ def open_family(n: int, p: int) -> Family:
     box = [POLE] * n + [(-2.0, 2.0)] * (p * n + n + p + n) + [(-0.9, 0.9)] * 2
 
     def at(point: Sequence[Any]) -> Drawn:
-        values = list(point)
-        poles, values = values[:n], values[n:]
-        C, values = [values[i * n : (i + 1) * n] for i in range(p)], values[p * n :]
-        F, values = [[x] for x in values[:n]], values[n:]
-        G, values = [[x] for x in values[:p]], values[p:]
-        B, values = [[x] for x in values[:n]], values[n:]
-        v_tap, v_pole = values
+        (poles,), C, F, G, B, (v_tap, v_pole) = cut(point, (1, n), (p, n), (n, 1), (p, 1), (n, 1))
         return Drawn(
             A=chain(poles),
             F=F,

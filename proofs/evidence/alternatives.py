@@ -168,12 +168,12 @@ def examine_alternative(origin: str, system: ResidualSystem, alternative: Residu
     )
 
 
-def _examined_pair(item: tuple[str, ResidualSystem, ResidualSystem, int]) -> list[PairEvidence]:
-    return [examine_pair(*item)]
+def _examined_pair(item: tuple[str, ResidualSystem, ResidualSystem, int]) -> PairEvidence:
+    return examine_pair(*item)
 
 
-def _examined_alternative(item: tuple[str, ResidualSystem, ResidualSystem, int]) -> list[AlternativeEvidence]:
-    return [examine_alternative(*item)]
+def _examined_alternative(item: tuple[str, ResidualSystem, ResidualSystem, int]) -> AlternativeEvidence:
+    return examine_alternative(*item)
 
 
 def _pairs(bench: Any) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, int]]:

@@ -35,7 +35,7 @@ def bench() -> Workbench:
     """Return a workbench with experiments of each family, fourteen in a thorough run, and more of those in which v is independent of u."""
     made = Workbench("quick", 1, silent)
     counts = {name: 120 if name == Drawn.INDEPENDENT else 30 if "independent" in name else 14 for name in FAMILIES}
-    made.limits = tuple(one for name, count in counts.items() for seed in range(0, count, every()) for one in LIMITS.make((name, seed)))
+    made.limits = tuple(LIMITS.make((name, seed)) for name, count in counts.items() for seed in range(0, count, every()))
     return made
 
 

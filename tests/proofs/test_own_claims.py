@@ -43,7 +43,7 @@ def bench() -> Workbench:
     """Return a workbench with the pairs of every sixth system of the quick run."""
     made = Workbench("quick", 1, silent)
     made.pairs_by_polynomial = tuple(one for item in list(PAIRS_BY_POLYNOMIAL.items(made))[::6] for one in PAIRS_BY_POLYNOMIAL.make(item))
-    made.alternatives = tuple(one for item in list(ALTERNATIVES.items(made))[::9] for one in ALTERNATIVES.make(item))
+    made.alternatives = tuple(map(ALTERNATIVES.make, list(ALTERNATIVES.items(made))[::9]))
     return made
 
 
