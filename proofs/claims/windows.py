@@ -310,8 +310,8 @@ def sharp_windows_equality_as_many_faults(bench: Workbench) -> Outcome:
         partner = _partner(kernel)
         if partner is None:
             return Outcome(Verdict.REFUTED, f"no partner found for {system}", accepted(ranks_and_inversion(system)), frozenset(decided))
-        certificates = make.window_equality(kernel, partner, kernel.lag), comparison_certificate(kernel, partner)
-        certificates += make.left_invertible(kernel), make.left_invertible(partner)
+        compared = make.window_equality(kernel, partner, kernel.lag), comparison_certificate(kernel, partner)
+        certificates = (*compared, make.left_invertible(kernel), make.left_invertible(partner))
         decided.update(map(accept, certificates))
         alike = all(certificate["kind"] == "left-invertible" for certificate in certificates[2:])
         if certificates[1]["statement"]["window"] != kernel.lag + 1 or partner.system.m != system.m or not alike:
