@@ -16,6 +16,8 @@ from pathlib import Path
 from ...base.processes import ending_with_us
 from ...base.progress import Progress, silent
 from .build import NotProved, compiled_theory, environment, forget
+from .locks import held
+from .sources import sources
 
 SECONDS = 1800
 AXIOMS = "Axioms"
@@ -32,9 +34,10 @@ PRIMITIVE = re.compile(r"Coq\.(?:Numbers\.Cyclic\.Int63\.PrimInt63|Strings\.Prim
 
 
 def recheck(progress: Progress = silent) -> str:
-    """Return what was done, in words. Raises NoRocq, BrokenTheory, NotProved."""
-    forget()
-    theory = compiled_theory(progress)
+    """Return what was done, in words. Raises NoRocq, BrokenTheory, NotProved, the latter before Rocq sees sources that are not as locked."""
+    held(texts := sources())
+    forget(texts)
+    theory = compiled_theory(progress, texts=texts)
     if shutil.which("coqchk") is None:
         return "compiled anew; coqchk is not on the path, so that Rocq's kernel alone has read it"
     progress("Rocq: reading the theory again with coqchk", 0, 1)
