@@ -5,12 +5,11 @@ Decided over the example's own number field: F is an eigenvector of A to a root 
 
 from __future__ import annotations
 
-from functools import cache
-
 from ...exact.algebra.matrices import Matrix
 from ...exact.structure.fault_columns import fault_space
 from ..evidence.families import paper_example
 from ..evidence.kept_kernels import kernel_once
+from ..evidence.once_a_run import once_a_run
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict
@@ -19,7 +18,7 @@ from ..verdict.workbench import Workbench, accepted
 SAMPLES = 24
 
 
-@cache
+@once_a_run(1)
 def _certificates() -> dict[str, Certificate]:
     """Everything about the example is certified here, and accepted by the checker."""
     system = paper_example().residual
