@@ -34,7 +34,7 @@ PRIMITIVE = re.compile(r"Coq\.(?:Numbers\.Cyclic\.Int63\.PrimInt63|Strings\.Prim
 
 
 def recheck(progress: Progress = silent) -> str:
-    """Return what was done, in words. Raises NoRocq, BrokenTheory, NotProved, the latter before Rocq sees sources that are not as locked."""
+    """Return what was done, in words. Raises NoRocq, BrokenTheory, NotProved: before Rocq sees what is not as locked, too."""
     held(texts := sources())
     forget(texts)
     theory = compiled_theory(progress, texts=texts)
