@@ -8,7 +8,8 @@ import pytest
 
 from faultspace.base.progress import silent
 from faultspace.exact.algebra.fields import QQ
-from faultspace.proofs.deciding import Check, decided as answers_to
+from faultspace.proofs.deciding import Check
+from faultspace.proofs.deciding import decided as answers_to
 from faultspace.proofs.evidence.alternatives import ALTERNATIVES, PAIRS, examine_alternative, examine_pair
 from faultspace.proofs.evidence.families import random_systems
 from faultspace.proofs.evidence.once_a_run import in_run

@@ -91,7 +91,8 @@ HIDINGS = [
     "Lemma a : True. Proof.\n- exact I. {} Qed.", "Lemma a : True. Proof. all: exact I. 1: {} Qed.", "Lemma a : True. Proof. {{ {} }} Qed.",
     "Lemma a : True. Proof. exact I... {} Qed.", "Definition a := 0.. {}", "Definition a := 0.\x0c{}", "Definition a := 0.\xa0{}",
     "Lemma a : True. Proof. refine ?[x]. [x]: {{ {} Qed.", "Lemma a : True. Proof. refine ?[x]. - [ x ] :{{ {} Qed.",
-    "Lemma a : True. Proof. exact I. 1: {{ {} Qed.", "Definition a := `(* 0. {} (* *).", "Definition a := 0. {} (* no end", 'Definition a := 0. {} "no end', "Definition a := 0.\v{}",
+    "Lemma a : True. Proof. exact I. 1: {{ {} Qed.", "Definition a := `(* 0. {} (* *).",
+    "Definition a := 0. {} (* no end", 'Definition a := 0. {} "no end', "Definition a := 0.\v{}",
 ]  # fmt: skip
 
 

@@ -13,8 +13,8 @@ import pytest
 
 from docs.tools.pages import statements
 from faultspace.proofs import verification
+from faultspace.proofs.brought import claiming
 from faultspace.proofs.brought import theorems as proofs_in_the_language
-from faultspace.proofs.brought.claiming import claim
 from faultspace.proofs.rocq import locks as rocq_locks
 from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, NotProved, compile_file, compiled_theory
 from faultspace.proofs.rocq.locks import held, kept, made, written
@@ -210,7 +210,7 @@ def test_what_the_language_says_of_theorems_is_locked(
         held(TEXTS)
     monkeypatch.setattr(proofs_in_the_language, "_locks", proofs_in_the_language._locks.__wrapped__)
     with pytest.raises(NotProved):
-        claim("zeta <= n", box={"total": 3}, ablation=False)
+        claiming.claim("zeta <= n", box={"total": 3}, ablation=False)
 
 
 @pytest.mark.parametrize("theorems", [True, False])
