@@ -358,7 +358,7 @@ def test_a_file_is_read() -> None:
 
 
 def test_an_answer_says_what_was_decided_whatever_it_is_called() -> None:
-    """"Observable" was all that was told of what is PROVED here, and of observable systems is false."""
+    """ "Observable" was all that was told of what is PROVED here, and of observable systems is false."""
     called = {"that": "m == 0 and left_invertible", "label": "observable"}
     for hypothesis, words in (called, "observable: m == 0 and left_invertible"), ("observable", "observable"):
         (answer,) = fs.claim("n_z == zeta + m", hypotheses=[hypothesis], box={"total": 3}, ablation=False).answers  # type: ignore[list-item]
