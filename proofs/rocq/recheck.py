@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
+import tempfile
 from pathlib import Path
 
 from ...base.processes import ending_with_us
@@ -52,16 +53,17 @@ def second_check(theory: Path, seconds: float = SECONDS) -> None:
     names = [f"faultspace.{one.stem}" for one in sorted(theory.glob("*.vo"))]
     command = [path, "-silent", "-o", "-Q", str(theory), "faultspace", *names]
     try:
-        run = subprocess.run(
-            command,
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=seconds,
-            env=environment(),
-            stdin=subprocess.DEVNULL,
-            preexec_fn=ending_with_us(),
-        )
+        with tempfile.TemporaryDirectory() as home:  # without one it would take the folder in which it was started, and load from there
+            run = subprocess.run(
+                command,
+                capture_output=True,
+                text=True,
+                check=False,
+                timeout=seconds,
+                env=environment(home),
+                stdin=subprocess.DEVNULL,
+                preexec_fn=ending_with_us(),
+            )
     except subprocess.TimeoutExpired:
         raise NotProved(f"coqchk took more than {seconds:g} s") from None
     printed = run.stdout + run.stderr  # with -silent the summary goes to standard error

@@ -313,6 +313,7 @@ def test_coqc_is_not_told_where_to_load_from(cache: Path, tmp_path: Path, monkey
         said = (tmp_path / f"{program}.said").read_text("utf-8")
         names = {line.partition("=")[0] for line in said.splitlines()} - {"_", "PWD", "SHLVL", "OLDPWD"}
         assert names <= {*rocq_build.GIVEN, "HOME", "TMPDIR", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "OCAMLRUNPARAM"} and "misled" not in said
+        assert "HOME" in names, "else they load from .local/share/coq of the folder where they are started"
 
 
 @pytest.mark.skipif(rocq_build.found() is None, reason=rocq_build.INSTALL)
