@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextvars import ContextVar
 from functools import lru_cache, wraps
-from typing import ParamSpec, TypeVar
+from typing import TypeVar, TypeVarTuple
 
-Given = ParamSpec("Given")
+Given = TypeVarTuple("Given")
 Found = TypeVar("Found")
 _RUN = ContextVar("run", default="")
 
@@ -21,17 +21,17 @@ def in_run(run: str) -> None:
     _RUN.set(run)
 
 
-def once_a_run(most: int) -> Callable[[Callable[Given, Found]], Callable[Given, Found]]:
+def once_a_run(most: int) -> Callable[[Callable[[*Given], Found]], Callable[[*Given], Found]]:
     """Return what makes a function keep `most` results, those of other runs being none of this one."""
 
-    def keeping(function: Callable[Given, Found]) -> Callable[Given, Found]:
+    def keeping(function: Callable[[*Given], Found]) -> Callable[[*Given], Found]:
         @lru_cache(maxsize=most)
-        def of_run(run: str, *args: Given.args, **kwargs: Given.kwargs) -> Found:
-            return function(*args, **kwargs)
+        def of_run(run: str, *given: *Given) -> Found:
+            return function(*given)
 
         @wraps(function)
-        def found(*args: Given.args, **kwargs: Given.kwargs) -> Found:
-            return of_run(_RUN.get(), *args, **kwargs)
+        def found(*given: *Given) -> Found:
+            return of_run(_RUN.get(), *given)
 
         return found
 
