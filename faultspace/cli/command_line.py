@@ -414,7 +414,9 @@ def monitor(
     ] = None,
     save: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Write the monitor there at the end, a MODEL that goes on later.", show_default=False),
+        typer.Option(
+            metavar="FILE", help="Write the monitor there, every minute and at the end: a MODEL that goes on.", show_default=False
+        ),
     ] = None,
     json: Json = False,
 ) -> int:

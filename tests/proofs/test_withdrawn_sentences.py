@@ -22,7 +22,7 @@ ROOT = Path(__file__).parents[2]
 PAPERS, LITERATURE = "faultspace/examples/papers.toml", "faultspace/examples/literature.toml"
 CLAIMS, CHOICES = "faultspace/examples/claims.toml", "faultspace/examples/choices.toml"
 GLOSSARY, CONCEPTS, CONSISTENCY = "docs/glossary.md", "docs/concepts.md", "docs/consistency.md"
-README, SENTENCES = "README.md", "faultspace/review/sentences.toml"
+README, SENTENCES, SPEED = "README.md", "faultspace/review/sentences.toml", "docs/speed.md"
 
 UNMOVED: dict[str, Any] = {"A": [[0]], "F": [[0]], "C": [[1]], "G": [[0]]}  # a fault that nothing feels
 
@@ -130,6 +130,15 @@ EXPERIMENTS: list[tuple[str, tuple[str, ...], dict[str, Any], dict[str, Any]]] =
         {"limit_rank": 3, "A_characteristic_polynomial": None},
     ),
     (
+        "past outputs as instruments stay biased whatever N is",  # not under a white fault
+        (SPEED,),
+        {
+            **{"A": [["1/2"]], "B": [["1"]], "C": [["1"]], "D": [["0"]], "F": [["1"]], "G": [["1"]]},
+            **{"s": 2, "past": 2, "u_filter": [[["1", "0"]]], "v_filter": [[["0", "1"]]]},
+        },
+        {"equals_observability_range": True, "A_characteristic_polynomial": ["-1/2", "1"]},
+    ),
+    (
         "One sign only: with white u the limit lies in the range",
         (CONSISTENCY,),
         {
@@ -155,7 +164,7 @@ def test_what_an_experiment_refutes_is_not_said(
     words: str, files: tuple[str, ...], experiment: dict[str, Any], facts: dict[str, Any]
 ) -> None:
     found = fs.limit(experiment).to_json()
-    outputs = found["past_outputs"] if files[0] == README else found
+    outputs = found["past_outputs"] if files[0] in (README, SPEED) else found
     assert {key: outputs[key] for key in facts} == facts
     assert not [file for file in files if words in text(file)]
 
@@ -265,3 +274,40 @@ def test_a_claim_that_is_proved_is_not_refuted_either(tmp_path: Path, capsys: py
     assert main(["claim", str(file), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["claims"][0]["verdict"] == "PROVED"
     assert "PROVED serving for NOT REFUTED" in text("docs/your-claims.md")
+
+
+def test_tools_and_limits_are_told_as_they_are() -> None:
+    methods = (ROOT / "benchmarks/identification_methods.py").read_text("utf-8")
+    assert re.search(r'Method\("fault-id", .*"past inputs"', methods), "the author's program was measured, and has no past outputs"
+    assert not [file for file in (README, SENTENCES, CONSISTENCY, "proofs/verdict/ledger.toml") if "every subspace tool" in text(file)]
+    experiment = json.loads((ROOT / "faultspace/examples/independent-fault.json").read_text("utf-8"))
+    assert "L" not in fs.limit(experiment).to_json() and "`faultspace limit` prints it" not in text(CONSISTENCY)
+
+
+def test_what_the_audit_says_of_its_checks() -> None:
+    from faultspace.numeric.audit.checks.catalogue import all_checks
+    from faultspace.numeric.audit.checks.growth import LENGTHS
+
+    assert any(check.claim is None for check in all_checks()) and "each check names the claim it rests on" not in text("docs/your-code.md")
+    assert f"Records have up to {2 * LENGTHS[1]} samples" in text("numeric/audit/PROTOCOL.md"), "time is looked at there where it leaps"
+
+
+def test_windows_that_are_too_short_are_not_taken_for_noise() -> None:
+    """The answer is that of windows of 2 and 3 samples, by ranks: as many faults as outputs on one vector, the gap at 1 on another."""
+    from faultspace.numeric.audit import reference
+
+    class Short:
+        @staticmethod
+        def fault_dimension(r: Any) -> int:
+            _, two, three = reference.window_ranks(r, 3)
+            return three - two
+
+    words = [record.explanation for record in fs.audit(Short, only=["fault-dimension"]).failed]
+    assert any(words) and all("too short" in one for one in words if "as outputs" in one or "R_2" in one)
+    assert "Nothing of that is guessed" not in text("numeric/audit/README.md")
+
+
+def test_fields_of_claims_are_prime() -> None:
+    with pytest.raises(fs.errors.InvalidInput, match="prime q up to 97"):
+        fs.claim("lag <= n", fields=["GF(4)"])
+    assert "may name finite fields" not in text("docs/your-claims.md")
