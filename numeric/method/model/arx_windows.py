@@ -35,7 +35,7 @@ from .compression import EPS, Compression, scaled_condition, window_rows
 from .sequential_qr import SequentialQR, triangular
 
 RATE = 1.6
-"""Lags over the cube root of the samples. Coefficients are normal in the limit where lags^3 / N vanishes, and sqrt(N) times the bias [LR85]:
+"""Lags over the cube root of the samples. In the limit coefficients are normal where lags^3 / N and sqrt(N) times the bias vanish [LR85]:
 the cube root is the edge of that, so the factor is calibrated by `python benchmarks/at_the_bound.py --calibrate lags`: errors
 are the same from 1.2 to 3.2, and larger at 0.8 where the noise has a spectral null."""
 SHARE = 4
