@@ -1,4 +1,4 @@
-"""example-v: n_v = 1, two columns in (Fhat, Ghat), (A, F) not controllable, 'seventh singular value of R5 negligible against R6'.
+"""example-v: n_v = 1, two columns in (Fhat, Ghat), (A, F) not controllable, and the caption that the review quotes.
 
 Decided over the example's own number field: F is an eigenvector of A to a root of 4 q^3 - q^2 - 3 q + 1, irreducible over Q.
 """
@@ -96,7 +96,7 @@ def zeros_and_delays(bench: Workbench) -> Outcome:
 
 
 def seventh_singular_value(bench: Workbench) -> Outcome:
-    """The review's sentence is read as a rank: the seventh singular value of R5 is negligible, so that rank R5 = 6."""
+    """The caption that the review quotes is read as a rank: the seventh singular value of R5 is negligible, so that rank R5 = 6."""
     r5, r6, words = _data_ranks()
     return _outcome(r5 == 6 and r6 == 7, words, "R5", "R6", "excitation 5", "excitation 6")
 

@@ -14,7 +14,7 @@ BOX = Box(n=(1, 2), m=(1, 2), p=(1, 2), total=4)
 
 
 def controllability_needed(bench: Workbench) -> Outcome:
-    """'Without controllability the formula fails': the smallest system not controllable where it holds; the paper's example is another."""
+    """The formula is claimed to fail without controllability: the smallest such system where it holds; the paper's example is another."""
 
     def holds(system: ResidualSystem) -> bool:
         e = bench.examined(system, MINIMAL)

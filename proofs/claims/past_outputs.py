@@ -1,4 +1,4 @@
-"""past-outputs: with past outputs among the instruments, as tools have them, a coloured fault biases the estimate."""
+"""past-outputs: with past outputs among the instruments, as tools have them, a coloured fault can bias the estimate."""
 
 from __future__ import annotations
 

@@ -13,8 +13,9 @@ Two regimes, told apart by the data alone:
 
     windows         s = 1 .. block_rows + 1
     ranks, margins  rank of R_s at its threshold; powers of ten between the threshold and the nearest singular value
-    thresholds      in units of the scaled channels (mean square one), see `hankel_ranks`; in the noise regime the largest singular value
-                    that white noise of the estimated level could reach, power^(1/2) (sqrt(columns) + sqrt(rows)) [DS01]: for orientation
+    thresholds      in units of the scaled channels (mean square one), see `hankel_ranks`; in the noise regime power^(1/2)
+                    (sqrt(columns) + sqrt(rows)), the largest singular value of as many independent errors, about [DS01]: for
+                    orientation, since a Hankel matrix of white noise can have a larger one
     gaps            rank R_(s+1) - rank R_s, s = 1 .. block_rows
     channel_scales  root mean square of each channel, divided out first: units do not matter
 
