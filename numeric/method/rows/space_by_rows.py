@@ -162,13 +162,13 @@ def _with_order(found: FaultSpaceEstimate, model: ReducedModel) -> FaultSpaceEst
     doubt = f"order {found.n - 1} explains the data nearly as well (likelihood ratio {last.gain:.2g} with {last.parameters} parameters)"
     if model.orders is None:
         return replace(
-            found, reason=f"if the order is {found.n}, as given: {found.reason}; {doubt}, and a state too many is a zero too many"
+            found, finding=f"if the order is {found.n}, as given: {found.finding}; {doubt}, and a state too many is a zero too many"
         )
     return replace(
         found,
         decided=False,
         margin=last.worth,
-        reason=f"undecided: {found.reason}; but {doubt}, and a state too many is a zero too many",
+        finding=f"{found.finding}; but {doubt}, and a state too many is a zero too many",
     )
 
 
@@ -340,8 +340,7 @@ def _estimate(rows: _Rows, solved: _Solved) -> FaultSpaceEstimate:
     words = "; as many as the observability indices of (A, C) allow" if n_z == rows.largest else ""
     if n_z > n_v:
         words += "; what the data cannot tell from a zero counts as one"
-    doubt = "" if chosen.decided else "undecided: "
-    reason = f"{doubt}n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}; for the rows total {chosen.reason}{words}"
+    finding = f"n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}; for the rows total {chosen.reason}{words}"
     return FaultSpaceEstimate(
         solved.basis,
         n_z,
@@ -355,7 +354,7 @@ def _estimate(rows: _Rows, solved: _Solved) -> FaultSpaceEstimate:
         chosen.margin,
         chosen.decided,
         True,
-        reason,
+        finding,
         None,
         "kernel rows",
         SpaceUncertainty(solved.root),

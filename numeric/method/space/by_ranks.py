@@ -28,7 +28,7 @@ from ....base.threads import one_thread
 from ...data.records import Stored, in_memory
 from ..ranks.arguments import Arguments, arguments
 from ..ranks.sample_windows import EPS, channel_sizes, gap_rank, hankel_factor, leading_factor, observed_coordinates
-from .by_likelihood import fault_space_by_least_squares, fault_space_by_likelihood, likelihood_space
+from .by_likelihood import fault_space_by_likelihood, likelihood_space
 from .error_bound import fault_space_error_bound
 from .estimate import FaultSpaceEstimate, everything, kernel_conditions, orthonormal
 from .largest import largest_fault_space
@@ -41,7 +41,6 @@ CONVINCING = 1e3
 __all__ = [
     "FaultSpaceEstimate",
     "fault_space",
-    "fault_space_by_least_squares",
     "fault_space_by_likelihood",
     "noise_free_fault_space",
 ]
@@ -162,7 +161,8 @@ def _from_ladder(data: Arguments, ladder: Ladder) -> FaultSpaceEstimate:
     expected = n + p - sum(degree + 1 for degree in degrees if degree < s)
     margin = min(drop, ladder.drops[s], *ladder.drops[-2:])
     decided = margin >= CONVINCING and expected == n_z and ladder.final_gap == n_v
-    meaningful, reason = _judged(data, ladder, n_v, n_z, expected, margin)
+    doubtful = margin < CONVINCING and expected == n_z
+    meaningful, finding = _judged(data, ladder, n_v, n_z, expected)
     return FaultSpaceEstimate(
         basis,
         n_z,
@@ -176,9 +176,10 @@ def _from_ladder(data: Arguments, ladder: Ladder) -> FaultSpaceEstimate:
         margin,
         decided,
         meaningful,
-        reason,
+        finding,
         bound,
         "noise-free",
+        doubts=(f"the weakest rank decision has a drop of only {margin:.2g}",) if meaningful and doubtful else (),
     )
 
 
@@ -193,7 +194,7 @@ def _no_null_rows(data: Arguments, ladder: Ladder) -> str:
     return f"rank R_{s} = {p * s} of {rows}: no null row, so every column [f; g] is a solution and the answer means nothing; {why}"
 
 
-def _judged(data: Arguments, ladder: Ladder, n_v: int, n_z: int, expected: int, margin: float) -> tuple[bool, str]:
+def _judged(data: Arguments, ladder: Ladder, n_v: int, n_z: int, expected: int) -> tuple[bool, str]:
     """Return whether the answer means something, and the sentence that says why or why not."""
     s, lag, longest = data.block_rows, ladder.lag, len(ladder.ranks) - 1
     ranks = f"ranks of R_1 .. R_{longest}: {', '.join(map(str, ladder.ranks[1:]))}"
@@ -221,7 +222,6 @@ def _judged(data: Arguments, ladder: Ladder, n_v: int, n_z: int, expected: int, 
     if n_z != expected:
         return (
             True,
-            f"undecided: the conditions leave {counted(n_z, 'column')}, the ranks {expected}; A and C may not fit the residual ({ranks})",
+            f"the conditions leave {counted(n_z, 'column')}, the ranks {expected}; A and C may not fit the residual ({ranks})",
         )
-    doubt = "" if margin >= CONVINCING else f"undecided: the weakest rank decision has a drop of only {margin:.2g}; "
-    return True, f"{doubt}n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}, lag {lag}, window {s} ({ranks})"
+    return True, f"n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}, lag {lag}, window {s} ({ranks})"

@@ -75,7 +75,7 @@ def space_of(plant: Explained, found: Counted, on_progress: Progress) -> Space:
     if not plant.exact or isinstance(model, ReducedModel):
         space = _by_laws(plant, found, faults)
         if isinstance(space, FaultSpaceEstimate):
-            return Space(replace(space, reason=f"{space.reason}; n_v as {told}"))
+            return Space(replace(space, finding=f"{space.finding}; n_v as {told}"))
         notes = (f"the fault space is from the residual: {space}",)
     try:
         space = told_fault_space(beyond_rounding(plant), model.model.A, model.model.C, n_v=faults, told=told)
@@ -84,7 +84,7 @@ def space_of(plant: Explained, found: Counted, on_progress: Progress) -> Space:
     if space.method == "likelihood":
         notes += (FROM_IDENTIFIED,)
     if plant.exact and not plant.healthy:
-        space = replace(space.in_doubt(ESTIMATED), error_bound=None)
+        space = replace(space, decided=False, doubts=(ESTIMATED, *space.doubts), error_bound=None)
     return Space(space, notes)
 
 

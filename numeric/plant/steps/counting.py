@@ -274,9 +274,7 @@ def _mean_against(plant: Explained, after: tuple[Array, Array], before: tuple[Ar
     return replace(mean, shifted=None, reason=doubt, visible=None) if doubt else mean
 
 
-def _news(
-    plant: Explained, onset: FaultOnset | None, r: Array, u: Array, healthy: Array, before: Array, faults: int
-) -> int | None:
+def _news(plant: Explained, onset: FaultOnset | None, r: Array, u: Array, healthy: Array, before: Array, faults: int) -> int | None:
     """Return how many of so many faults are more than residual and inputs foretell, in the longest stretch between two onsets: a predictor
     that is fitted over a jump has all of its coefficients bent. Where these are too short it is the whole."""
     last, (first, stop) = slice(-MEANS_FROM, None), plant.held

@@ -54,9 +54,7 @@ def long_enough(record: Record, block_rows: int) -> tuple[Record, tuple[str, ...
     return replace(side_by_side(kept), offset=record.offset, clock=record.clock), (note,)
 
 
-def explained(
-    measured: Measured, found: MoespModel | ReducedModel, exact: bool, block_rows: int, on_progress: Progress
-) -> Explained:
+def explained(measured: Measured, found: MoespModel | ReducedModel, exact: bool, block_rows: int, on_progress: Progress) -> Explained:
     """Return what the model leaves of the record, with a part for each experiment where there are several; a healthy record is none."""
     record, healthy = measured.record, measured.healthy
     with np.errstate(over="ignore", invalid="ignore"):  # outliers beyond all numbers are told by what they leave
