@@ -10,6 +10,7 @@
     STUDIES              these plans by name
     check_memory         refuses more systems or samples than memory holds
     Study                what came of a plan: a Case for each system, read by people, programs and notebooks
+    done_by              each result of tasks as it comes, whoever worked on it
 
 What is wrong with the published numbers, and how a case says so. With no zeros rank R_5 = 15 of 15 rows: there is no null row, every
 column is a solution, and [F; G] lies in all of R^8. Such a case is marked `vacuous`: its error is zero by construction, for any data.
@@ -33,15 +34,16 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Any, TypeVar
 
+import joblib
 import numpy as np
 import psutil
 
 from ...base.errors import InvalidData, shorten
 from ...base.progress import Progress, silent
 from ...base.sheets import Shown, counted
-from ...base.tasks import Died, Task
+from ...base.tasks import Died, Task, Tasks, as_they_come
 from ..data.validation import positive
 from .groups import Group, Plan, StudyCases, by_phase, by_zeros
 from .plots import errors_by_zeros
@@ -58,7 +60,6 @@ from .study_cases import (
     identified_case,
     published_case,
 )
-from .study_workers import done_by
 
 SEED = 1907
 CASE_BYTES = 1 << 12
@@ -249,3 +250,25 @@ def _in_words(group: Group) -> str:
 
 def _percent(value: float | None) -> str:
     return "unknown" if value is None else f"{100 * value:.2g} %"
+
+
+Result = TypeVar("Result")
+
+
+def done_by(
+    function: Callable[..., Result],
+    tasks: Tasks,
+    *,
+    worth: int,
+    jobs: int | None = None,
+    cluster: str | None = None,
+) -> Iterator[tuple[int, Result | Died]]:
+    """Yield the number of each task with function(*task), as it comes; `jobs` processes (None: all cores), or the workers of the Dask
+    scheduler at the address `cluster`.
+
+    Raises InvalidData for numbers below one, for a cluster and jobs at once, and for a cluster that cannot be used.
+    """
+    if cluster is not None and jobs is not None:
+        raise InvalidData(f"jobs: got {jobs} together with a cluster, which decides for itself; leave one of them out")
+    count = joblib.cpu_count() if jobs is None else positive(jobs, "jobs")
+    return as_they_come(function, tasks, count=min(count, -(-len(tasks) // worth)), cluster=cluster)

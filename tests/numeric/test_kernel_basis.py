@@ -15,10 +15,10 @@ from faultspace.base.errors import InvalidData
 from faultspace.numeric.method.ranks.sample_windows import observed_coordinates
 from faultspace.numeric.method.space import basis as likelihood
 from faultspace.numeric.method.space import by_likelihood as noisy_fault_space
+from faultspace.numeric.method.space.by_likelihood import complement, rows_from, splits
 from faultspace.numeric.method.space.by_ranks import fault_space_by_likelihood
 from faultspace.numeric.method.space.distances import principal_angles
 from faultspace.numeric.method.space.estimate import SpaceUncertainty
-from faultspace.numeric.method.space.start import complement, rows_from, splits
 from faultspace.numeric.method.space.tapered_moments import tapered_moments
 from tests.numeric.planted import Planted, coloured, faults, planted, simulate
 

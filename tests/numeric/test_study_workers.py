@@ -17,9 +17,8 @@ from faultspace.base import workers as base_workers
 from faultspace.base.errors import InvalidData
 from faultspace.base.tasks import Died, as_they_come
 from faultspace.numeric.study.groups import Plan
-from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, Study, monte_carlo
+from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, Study, done_by, monte_carlo
 from faultspace.numeric.study.study_cases import Case, published_case
-from faultspace.numeric.study.study_workers import done_by
 
 
 def squared(number: int) -> int:

@@ -25,7 +25,7 @@ from faultspace.base.threads import one_thread
 from faultspace.numeric import StateSpaceModel, count_faults, fault_dimension, pi_moesp
 from faultspace.numeric.plant.monitor import monitoring
 from faultspace.numeric.plant.report.result_files import of_monitor
-from faultspace.numeric.study.study_workers import done_by
+from faultspace.numeric.study.studies import done_by
 
 NUMERIC: Any = importlib.import_module("faultspace.numeric")
 # They read and hold data, and multiply no matrices.

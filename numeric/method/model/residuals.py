@@ -34,7 +34,7 @@ from ...data.plain import plain
 from ...data.records import SampleStore, stored
 from ...data.validation import experiment
 from ..plotting import plot_residual
-from ..ranks.triangles import stacked_triangle
+from ..ranks.sample_windows import stacked_triangle
 from .models import Simulator, StateSpaceModel
 
 GROWTH = 1e4

@@ -30,11 +30,10 @@ from ....base.sheets import counted
 from ....base.threads import one_thread
 from ...data.validation import noise_deviations, positive, signals
 from ..model.arx import Arx
-from ..model.last_state import last_state
 from ..model.models import StateSpaceModel, observability_matrix
 from ..model.reduced_model import ReducedModel
 from ..model.uncertainty import Uncertainty
-from ..model.valleys import valleys
+from ..model.valleys import last_state, valleys
 from ..ranks.arguments import shaped
 from ..ranks.sample_windows import ObservedCoordinates, channel_sizes, observed_coordinates
 from ..space.basis import KernelBasis

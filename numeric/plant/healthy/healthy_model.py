@@ -45,8 +45,7 @@ from ....base.sheets import Shown, counted
 from ....base.threads import one_thread
 from ...data.plain import plain
 from ...data.validation import signal
-from ...method.ranks.sample_windows import channel_sizes
-from ...method.ranks.triangles import stacked_triangle
+from ...method.ranks.sample_windows import channel_sizes, stacked_triangle
 from .largest_root import largest_root_quantile
 
 Complex = NDArray[np.complex128]

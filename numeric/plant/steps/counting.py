@@ -39,8 +39,7 @@ from ..healthy.news import news_beyond_healthy
 from ..healthy.unlike_healthy import beyond_healthy_inputs, unlike_healthy
 from .changing import beside_changes, changes_in, unlike_healthy_ranks
 from .choice import MEANS_FROM, ROUNDING, about_own_means, beyond_rounding, largest
-from .elsewhere import doubt_of_means
-from .explaining import looked_at, most_held
+from .explaining import doubt_of_means, looked_at, most_held
 from .findings import Because, Count, Counted, CountedBy, Explained, Reason
 from .words import said
 

@@ -16,14 +16,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ....base.arrays import Array
-from ....base.errors import InvalidData
-from ....base.threads import one_thread
-from ...data.validation import positive
-from ...method.model.invariants import system_matrix
-from ...method.model.models import StateSpaceModel
-from ...method.model.uncertainty import Uncertainty, uncertainty_of
-from ...method.model.weighted_reduction import Reduction, circle, spectral_radius
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from ...base.threads import one_thread
+from ..data.validation import positive
+from ..method.model.invariants import system_matrix
+from ..method.model.models import StateSpaceModel
+from ..method.model.uncertainty import Uncertainty, uncertainty_of
+from ..method.model.weighted_reduction import Reduction, circle, spectral_radius
 from .driving_spectra import Spectra
 
 COARSE, FINE = 128, 1 << 15
@@ -42,7 +42,7 @@ def cramer_rao(model: StateSpaceModel, spectra: Spectra, N: int) -> Uncertainty:
 
     >>> import numpy as np
     >>> from faultspace.numeric import Spectra, StateSpaceModel, cramer_rao
-    >>> from faultspace.numeric.study.bound.driving_spectra import white
+    >>> from faultspace.numeric.study.driving_spectra import white
     >>> static = StateSpaceModel(np.zeros((0, 0)), np.zeros((0, 1)), np.zeros((1, 0)), [[2.0]])
     >>> cramer_rao(static, Spectra(white([[4.0]]), white([[1.0]])), 100).markov(1).tolist()
     [[[0.05]]]
