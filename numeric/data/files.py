@@ -79,16 +79,32 @@ def read_record(
 ) -> Record:
     """Return the record in a file: some of its named columns as inputs, others as outputs, ready for `identify`.
 
-    `path` ends in .csv, .tsv, .txt, .dat, .parquet, .pq, .npz, .npy or .mat, or is a folder of Parquet files with the same columns, which
-    are one record in parts, in the order of the numbers in their names; `inputs` and `outputs` name n_u and p channels, by the
-    names of columns or, for matrices, as NAME[:,j]; a text may hold several names, separated by commas, and a name with a comma stands in
-    double quotes. Rows are samples, in the order of time and in the file's units, and every number must be finite. A column of times or
-    dates that is none of them gives the `clock` of the record: its sample time, and what is odd about it. `on_progress(stage, done, total)`
-    hears how much of how much has been read. The Record has `len`, the number of samples, `inputs` and `outputs`; it is read in pieces and
-    need not fit into memory (a MAT file must).
+    Rows are samples, in the order of time and in the file's units, and every number must be finite.
 
-    Raises InvalidInput for a file that cannot be read, a channel that is not there or is named twice, and for numbers that are not finite.
+    Parameters
+    ----------
+    path : str or path
+        Ends in .csv, .tsv, .txt, .dat, .parquet, .pq, .npz, .npy or .mat, or is a folder of Parquet files with the same columns, one record
+        in parts, in the order of the numbers in their names.
+    inputs, outputs : str or list of str
+        n_u and p channels, by the names of columns or, for matrices, as NAME[:,j]; a text may hold several names, separated by commas, and
+        a name with a comma stands in double quotes.
+    on_progress : callable, optional
+        Hears (stage, done, total).
 
+    Returns
+    -------
+    Record
+        Its `len` is the number of samples; `clock` is from a column of times or dates that is no channel. It is read in pieces and need not
+        fit into memory (a MAT file must).
+
+    Raises
+    ------
+    InvalidInput
+        A file that cannot be read, a channel that is not there or is named twice, numbers that are not finite.
+
+    Examples
+    --------
     >>> import faultspace as fs, pathlib, tempfile
     >>> path = pathlib.Path(tempfile.mkdtemp(), "small.csv")
     >>> _ = path.write_text("valve,level\\n0.0,1.0\\n1.0,0.5\\n")
@@ -113,13 +129,26 @@ def read_stretches(
 ) -> list[Record]:
     """Return the whole stretches of a file in which samples are missing, as a list of Records.
 
-    They lie between rows with a cell that is no finite number, and between times at which rows are missing.
+    They lie between rows with a cell that is no finite number, and between times at which rows are missing. They are experiments of one
+    plant, and go into one answer as such: `identify(parts)`, or `arx_reduction_experiments(parts)` for the model alone.
 
-    The arguments are those of `read_record`, in the same units; the result is a list of Records, in the order of time, each with at least
-    one sample, with the sample time where a column tells it. They are experiments of one plant, and go into one answer as such:
-    `identify(parts)`, or `arx_reduction_experiments(parts)` for the model alone. Raises InvalidInput as `read_record` does, but for numbers
-    that are not finite, and where no row is whole.
+    Parameters
+    ----------
+    path, inputs, outputs, on_progress
+        As of `read_record`.
 
+    Returns
+    -------
+    list of Record
+        In the order of time, each with at least one sample, in the file's units, with the sample time where a column tells it.
+
+    Raises
+    ------
+    InvalidInput
+        As `read_record`, but for numbers that are not finite; and where no row is whole.
+
+    Examples
+    --------
     >>> import faultspace as fs, pathlib, tempfile
     >>> from faultspace.numeric import read_stretches
     >>> path = pathlib.Path(tempfile.mkdtemp(), "small.csv")

@@ -73,13 +73,34 @@ class FaultSpectra:
 def fault_space_bound(model: StateSpaceModel, F: ArrayLike, G: ArrayLike, spectra: FaultSpectra, N: int) -> SpaceUncertainty:
     """Compute the least error of an unbiased estimate of the fault space from N samples [SN90].
 
-    The model (A, B, C, D) is stable and minimal, its fault matrices F have the shape (n, n_v) and G (p, n_v), n_v < p. `spectra` are those
-    of the input, of the faults and of the noise. The result is the error of an orthonormal basis (n + p, n_z) of the fault space in the
-    states of the model and the units of y: `angle(confidence)` in radians, `distance(confidence)`. The number of zeros is known. The states
-    of an estimate are mapped to those of the model by least squares, as `method/space/space_uncertainty.py` says. Raises InvalidData for a
-    model that is not stable, shapes that do not fit, dependent faults, as many faults as outputs, and noise without power in some
-    direction.
+    The number of zeros is known. The states of an estimate are mapped to those of the model by least squares, as
+    `method/space/space_uncertainty.py` says.
 
+    Parameters
+    ----------
+    model : StateSpaceModel
+        Stable and minimal.
+    F, G : array_like, (n, n_v) and (p, n_v)
+        n_v < p.
+    spectra : FaultSpectra
+        Of the input, of the faults and of the noise.
+    N : int
+        Number of samples.
+
+    Returns
+    -------
+    SpaceUncertainty
+        Error of an orthonormal basis (n + p, n_z) in the states of the model and the units of y: `angle(confidence)` in radians,
+        `distance(confidence)`.
+
+    Raises
+    ------
+    InvalidData
+        A model that is not stable, shapes that do not fit, dependent faults, as many faults as outputs, noise without power in some
+        direction.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import FaultSpectra, StateSpaceModel, fault_space_bound
     >>> from faultspace.numeric.study.driving_spectra import white

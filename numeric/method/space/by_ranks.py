@@ -50,13 +50,32 @@ __all__ = [
 def fault_space(
     r: ArrayLike | Stored, A: ArrayLike, C: ArrayLike, *, n_v: int | None = None, block_rows: int | None = None
 ) -> FaultSpaceEstimate:
-    """Estimate the fault space of a residual r (N, p), in the units of y, for the model's A (n, n) and C (p, n): problem (11) of [G25].
+    """Estimate the fault space of a residual for the model's A and C: problem (11) of [G25].
 
-    `n_v` is the number of faults, found from the data when not given; `block_rows` is s, by default the least window
-    that surely suffices. Answers that mean nothing (no null rows, window not longer than the lag) are returned as
-    such, with `meaningful` False and a reason. Raises InvalidData for shapes that do not fit, values that are not
-    finite, n_v outside 1..p, or fewer samples than the window needs.
+    Answers that mean nothing (no null rows, window not longer than the lag) are returned as such, with `meaningful` False and a reason.
 
+    Parameters
+    ----------
+    r : array_like (N, p), or the ResidualSignal of `residual`
+        In the units of y.
+    A, C : array_like, (n, n) and (p, n)
+    n_v : int, optional
+        Number of faults, 1 to p, else found from the data.
+    block_rows : int, optional
+        Window s, by default the least that surely suffices.
+
+    Returns
+    -------
+    FaultSpaceEstimate
+        `basis` (n + p, n_z) of the columns [f; g], `n_z`, `decided`, `meaningful` and `reason`.
+
+    Raises
+    ------
+    InvalidData
+        Shapes that do not fit, values that are not finite, n_v outside 1..p, fewer samples than the window needs.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import fault_space
     >>> v = np.random.default_rng(1).standard_normal((100, 1))

@@ -214,14 +214,33 @@ def isolate(
 ) -> Isolation:
     """Say which single sensors and actuators lie in a fault space, and which of them explain the faults.
 
-    `space` is of `identified_fault_space` for the ReducedModel `model`, whose errors are then in every bound, or of any function that gives
-    one for a StateSpaceModel, whose A, B, C, D of the shapes (n, n), (n, n_u), (p, n), (p, n_u) are taken as right. `outputs` and `inputs`
-    name the channels, by default y1, .., u1, ..; `units` (p,) are the sizes of the outputs, in units of y, by which the states of two
-    models are matched in the space: the roots of their mean squares, by default ones; or (p, p), where it was found in mixtures of outputs,
-    U with the mixtures U^-1 y of unit size. A cause is "excluded" where its probability is below
-    0.01, "consistent" where it is 0.05 or more and the bound is below half a radian, and else "undecided". All are undecided where the
-    space is. Raises InvalidData for shapes and names that do not fit. Source: [G25] problem (11), [MN89].
+    A cause is "excluded" where its probability is below 0.01, "consistent" where it is 0.05 or more and the bound is below half a radian,
+    and else "undecided". All are undecided where the space is. Source: [G25] problem (11), [MN89].
 
+    Parameters
+    ----------
+    space : FaultSpaceEstimate
+        Of `identified_fault_space` for a ReducedModel, whose errors are then in every bound; of any other function for a StateSpaceModel.
+    model : ReducedModel or StateSpaceModel
+        A, B, C, D of the shapes (n, n), (n, n_u), (p, n), (p, n_u), of a StateSpaceModel taken as right.
+    outputs, inputs : list of str, optional
+        Names of the channels, by default y1, .., u1, ..
+    units : (p,) or (p, p), optional
+        Sizes of the outputs, in units of y, by which the states of two models are matched: the roots of their mean squares, by default
+        ones; or U, where the space was found in mixtures U^-1 y of unit size.
+
+    Returns
+    -------
+    Isolation
+        A row for each sensor and input, and the sets of them that explain everything.
+
+    Raises
+    ------
+    InvalidData
+        Shapes and names that do not fit.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, fault_space, isolate
     >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0], [1.0]], [[0.0], [0.0]])

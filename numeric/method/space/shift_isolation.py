@@ -150,18 +150,42 @@ def isolate_shift(
 ) -> ShiftIsolation:
     """Say which single sensors and actuators explain a shift of the mean of a residual.
 
-    `shift` (p,) is by what the mean has moved, in units of y, and `covariance` (p, p) that of its errors, the noise at frequency zero and
-    the error of the model times the change of the mean of u, as `MeanShift` has it; `freedom` are the degrees of freedom that it was
-    estimated with, None where it is known. `model` is a ReducedModel, whose standard errors are those of its static gain, or a
-    StateSpaceModel with A, B, C, D of the shapes (n, n), (n, n_u), (p, n), (p, n_u), which is taken as right. `steady` says whether the
-    fault stays what it is and its onset has died out: else nothing is said of actuators, whose response is then more than the static gain.
-    `varying` (p, p) is the covariance of the mean of the residual by its own variation while the fault acts, where that is estimated: of a
-    fault that varies the mean is chance, within such errors, and of one in an actuator the static gain does not tell it.
-    `outputs` and `inputs` name the channels, by default y1, .., u1, ... A cause is "excluded" where its probability is below 0.01,
-    "consistent" where it is 0.05 or more and the bound is below half a radian, and else "undecided". Of one output all are undecided, and
-    so they are where the shift itself is not beyond chance. Raises InvalidData for shapes, names and covariances that cannot be. Source:
-    [H31], [MN89].
+    A cause is "excluded" where its probability is below 0.01, "consistent" where it is 0.05 or more and the bound is below half a radian,
+    and else "undecided". Of one output all are undecided, and so they are where the shift itself is not beyond chance. Source: [H31],
+    [MN89].
 
+    Parameters
+    ----------
+    shift : array_like, (p,)
+        By what the mean has moved, in units of y.
+    covariance : array_like, (p, p)
+        Of its errors: the noise at frequency zero and the error of the model times the change of the mean of u, as `MeanShift` has it.
+    model : ReducedModel or StateSpaceModel
+        The static gain has the standard errors of a ReducedModel; A, B, C, D of a StateSpaceModel, of the shapes (n, n), (n, n_u), (p, n),
+        (p, n_u), are taken as right.
+    freedom : int, optional
+        Degrees of freedom of the covariance; None where it is known.
+    steady : bool
+        Whether the fault stays what it is and its onset has died out: else nothing is said of actuators, whose response is then more than
+        the static gain.
+    varying : array_like (p, p), optional
+        Covariance of the mean by the residual's own variation while the fault acts, where it is estimated: of a fault that varies the mean
+        is chance, within such errors, and of one in an actuator the static gain does not tell it.
+    outputs, inputs : list of str, optional
+        Names of the channels, by default y1, .., u1, ..
+
+    Returns
+    -------
+    ShiftIsolation
+        A row for each sensor and input.
+
+    Raises
+    ------
+    InvalidData
+        Shapes, names and covariances that cannot be.
+
+    Examples
+    --------
     >>> from faultspace.numeric import StateSpaceModel, isolate_shift
     >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0], [1.0]], [[0.0], [0.0]])
     >>> isolate_shift([1.1, 0.9], [[0.01, 0.0], [0.0, 0.01]], model).answer

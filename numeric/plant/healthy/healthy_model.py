@@ -251,14 +251,30 @@ class HealthyReference(Shown):
 
 @one_thread()
 def healthy_reference(healthy: ArrayLike, u: ArrayLike | None = None, *, level: float = HEALTHY_LEVEL) -> HealthyReference:
-    """Learn from a healthy residual (N, p) and, where given, its inputs u (N, n_u), each channel in any units.
+    """Learn the noise of a healthy residual and, where given, of what its inputs make of the model's error.
 
-    `level` is that of the quantiles that strain is measured in.
+    Source: [BT94] for the number of lags, [RS95] for the tapers.
 
-    Raises InvalidData for NaN, fewer than 64 samples a channel, or channels that are constant or exact combinations of others (there
-    is no noise to compare with; `fault_dimension` counts the faults of such residuals). Sources: [BT94] for the number of lags, [RS95] for
-    the tapers.
+    Parameters
+    ----------
+    healthy : array_like, (N, p)
+        Each channel in any units.
+    u : array_like (N, n_u), optional
+    level : float in (0, 1)
+        Of the quantiles that strain is measured in.
 
+    Returns
+    -------
+    HealthyReference
+
+    Raises
+    ------
+    InvalidData
+        NaN, fewer than 64 samples a channel, channels that are constant or exact combinations of others (there is no noise to compare with;
+        `fault_dimension` counts the faults of such residuals).
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import healthy_reference
     >>> noise = np.random.default_rng(1).standard_normal((2000, 3))
