@@ -27,7 +27,8 @@ from numpy.typing import NDArray
 from faultspace.numeric.method.model.models import StateSpaceModel
 from faultspace.numeric.method.ranks.sample_windows import hankel_factor
 from faultspace.numeric.method.space import by_likelihood as noisy_fault_space
-from faultspace.numeric.method.space.by_ranks import fault_space, fault_space_by_likelihood
+from faultspace.numeric.method.space.by_likelihood import fault_space_by_likelihood
+from faultspace.numeric.method.space.by_ranks import fault_space
 from faultspace.numeric.method.space.distances import principal_angles
 from faultspace.numeric.method.space.estimate import FaultSpaceEstimate, kernel_conditions
 from faultspace.numeric.study.random_systems import study_system

@@ -12,7 +12,8 @@ import pytest
 
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.method.ranks.sample_windows import hankel_factor, observed_coordinates
-from faultspace.numeric.method.space.by_ranks import fault_space, fault_space_by_likelihood, noise_free_fault_space
+from faultspace.numeric.method.space.by_likelihood import fault_space_by_likelihood
+from faultspace.numeric.method.space.by_ranks import fault_space, noise_free_fault_space
 from faultspace.numeric.method.space.distances import containment_distance, principal_angles, subspace_distance
 from faultspace.numeric.method.space.estimate import condition_maps, kernel_conditions
 from tests.numeric.planted import Planted, coloured, faults, paper_example, planted, simulate

@@ -14,7 +14,8 @@ from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.numeric.method.model.models import StateSpaceModel
 from faultspace.numeric.method.space import by_likelihood as noisy_fault_space
-from faultspace.numeric.method.space.by_ranks import fault_space, fault_space_by_likelihood
+from faultspace.numeric.method.space.by_likelihood import fault_space_by_likelihood
+from faultspace.numeric.method.space.by_ranks import fault_space
 from faultspace.numeric.method.space.largest import largest_fault_space, observability_indices
 from tests.thorough import every
 

@@ -15,8 +15,7 @@ from faultspace.base.errors import InvalidData
 from faultspace.numeric.method.ranks.sample_windows import observed_coordinates
 from faultspace.numeric.method.space import basis as likelihood
 from faultspace.numeric.method.space import by_likelihood as noisy_fault_space
-from faultspace.numeric.method.space.by_likelihood import complement, rows_from, splits
-from faultspace.numeric.method.space.by_ranks import fault_space_by_likelihood
+from faultspace.numeric.method.space.by_likelihood import complement, fault_space_by_likelihood, rows_from, splits
 from faultspace.numeric.method.space.distances import principal_angles
 from faultspace.numeric.method.space.estimate import SpaceUncertainty
 from faultspace.numeric.method.space.tapered_moments import tapered_moments

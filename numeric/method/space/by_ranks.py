@@ -3,7 +3,6 @@
     fault_space              the estimate for any residual: the noise-free form where R_s has a rank to machine
                              precision, else the likelihood form
     noise_free_fault_space   by the exact ranks of every window up to n + 1
-    FaultSpaceEstimate       the record: basis, n_z, F, G, meaningful, reason
     N_s                      left null space of R_s, R_s the block Hankel matrix of r with s block rows
     lag                      the largest degree of a minimal kernel row; the answer is right from s = lag + 1 on, not
                              before
@@ -28,7 +27,7 @@ from ....base.threads import one_thread
 from ...data.records import Stored, in_memory
 from ..ranks.arguments import Arguments, arguments
 from ..ranks.sample_windows import EPS, channel_sizes, gap_rank, hankel_factor, leading_factor, observed_coordinates
-from .by_likelihood import fault_space_by_likelihood, likelihood_space
+from .by_likelihood import likelihood_space
 from .error_bound import fault_space_error_bound
 from .estimate import FaultSpaceEstimate, everything, kernel_conditions, orthonormal
 from .largest import largest_fault_space
@@ -37,13 +36,6 @@ from .largest import largest_fault_space
 EXACT = 2e-12
 # A rank whose drop is smaller than this is called undecided.
 CONVINCING = 1e3
-
-__all__ = [
-    "FaultSpaceEstimate",
-    "fault_space",
-    "fault_space_by_likelihood",
-    "noise_free_fault_space",
-]
 
 
 @one_thread()

@@ -22,7 +22,7 @@ import numpy as np
 
 from ....base.arrays import Array
 from ....base.errors import InvalidData
-from ....base.sheets import Shown
+from ....base.sheets import Shown, or_undecided
 from ...data.plain import plain
 from ..plotting import plot_conditions
 
@@ -192,13 +192,13 @@ class FaultSpaceEstimate(Shown):
         """Return what the estimate is, on one short line."""
         if not self.meaningful:
             return "fault space: none that means anything"
-        return f"fault space of dimension {self.n_z}{'' if self.decided else ' (undecided)'}, n_v {_or_undecided(self.n_v)}"
+        return f"fault space of dimension {self.n_z}{'' if self.decided else ' (undecided)'}, n_v {or_undecided(self.n_v)}"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
         """Yield what there is to say of it, as pairs of a name and a value."""
         yield "why", self.reason
-        yield "number of faults n_v", _or_undecided(self.n_v)
-        yield "zeros, finite and infinite", _or_undecided(self.zeta)
+        yield "number of faults n_v", or_undecided(self.n_v)
+        yield "zeros, finite and infinite", or_undecided(self.zeta)
         yield "equations", f"{self.equations} for the {self.unknowns} entries of a column [f; g]"
         yield "method", f"{self.method}, windows of {self.block_rows} samples"
         if self.error_bound is not None:
@@ -244,10 +244,6 @@ class FaultSpaceEstimate(Shown):
         n_v unknown, the answer without meaning, or n_z undecided.
         """
         return None if self.n_v is None or not self.meaningful or not self.decided else self.n_z - self.n_v
-
-
-def _or_undecided(number: int | None) -> str:
-    return "undecided" if number is None else str(number)
 
 
 def everything(n: int, p: int, n_v: int | None, block_rows: int, reason: str, *, lag: int | None = None) -> FaultSpaceEstimate:

@@ -23,7 +23,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations, islice
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -35,6 +35,8 @@ from ....base.sheets import Shown, counted
 from ....base.threads import one_thread
 from ...data.plain import plain
 from ...data.validation import noise_deviations
+from ..model.models import StateSpaceModel
+from ..model.residuals import HasModel
 from ..plotting import plot_angles
 from ..ranks.sample_windows import EPS
 from .estimate import FaultSpaceEstimate, SpaceOfValley
@@ -48,34 +50,6 @@ WIDE = 0.5  # radians: above it, the first order says no more than that the spac
 DRAWS, SEED = 4000, 20251124
 RANK = 1e-6  # singular values of responses of unit size below which they are dependent
 MOST_SETS, MOST_TRIED = 12, 4000
-
-
-class Matrices(Protocol):
-    """A model: A (n, n), B (n, n_u), C (p, n), D (p, n_u)."""
-
-    @property
-    def A(self) -> Array:
-        """Return the state matrix (n, n)."""
-
-    @property
-    def B(self) -> Array:
-        """Return the input matrix (n, n_u)."""
-
-    @property
-    def C(self) -> Array:
-        """Return the output matrix (p, n)."""
-
-    @property
-    def D(self) -> Array:
-        """Return the direct feedthrough (p, n_u)."""
-
-
-class Identified(Protocol):
-    """The result of an identification, with its `model`; a ReducedModel has its `uncertainty` too."""
-
-    @property
-    def model(self) -> Any:
-        """Return the model."""
 
 
 @dataclass(frozen=True)
@@ -206,7 +180,7 @@ class Isolation(SingleCauses[Cause]):
 @one_thread()
 def isolate(
     space: FaultSpaceEstimate,
-    model: Matrices | Identified,
+    model: StateSpaceModel | HasModel,
     *,
     outputs: Sequence[str] | None = None,
     inputs: Sequence[str] | None = None,
@@ -307,7 +281,7 @@ def _weight(units: ArrayLike | None, p: int) -> Array:
     return np.asarray(np.linalg.inv(mixed / sizes[:, None]) / sizes)
 
 
-def _column_errors(matrices: Matrices, root: Array, weight: Array) -> Array:
+def _column_errors(matrices: StateSpaceModel, root: Array, weight: Array) -> Array:
     """Return the errors (K, n + p, p + n_u) of the columns of sensors and actuators, as linear maps of the numbers of the model's root:
     those of B and D, and the turn of the states of the true model to those of this one."""
     (p, n), n_u = matrices.C.shape, matrices.B.shape[1]
@@ -374,7 +348,7 @@ def _test(off: Array, spread: Array) -> tuple[float, float]:
     return float(np.arctan(np.quantile(np.linalg.norm(draws, axis=1), 0.95))), chance
 
 
-def _sets(causes: Sequence[Cause], columns: Array, model: Matrices, n_v: int) -> tuple[tuple[Cause, ...], ...]:
+def _sets(causes: Sequence[Cause], columns: Array, model: StateSpaceModel, n_v: int) -> tuple[tuple[Cause, ...], ...]:
     """Return the sets of n_v consistent causes whose responses are independent."""
     inside = [j for j, cause in enumerate(causes) if cause.answer == "consistent"]
     n = len(model.A)

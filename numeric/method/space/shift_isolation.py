@@ -36,8 +36,10 @@ from ....base.errors import InvalidData, shorten
 from ....base.sheets import counted
 from ....base.threads import one_thread
 from ...data.plain import plain
+from ..model.models import StateSpaceModel
+from ..model.residuals import HasModel
 from ..plotting import plot_chances
-from .isolation import CONSISTENT, EXCLUDED, RANK, WIDE, Identified, Matrices, SingleCause, SingleCauses, channels, words_of_one
+from .isolation import CONSISTENT, EXCLUDED, RANK, WIDE, SingleCause, SingleCauses, channels, words_of_one
 
 ANGLES = 720  # of the grid on which the least statistic is looked for
 NO_GAIN = "the model has a pole on the unit circle or outside, as far as its standard errors tell: an offset has no steady response"
@@ -140,7 +142,7 @@ class _Law:
 def isolate_shift(
     shift: ArrayLike,
     covariance: ArrayLike,
-    model: Matrices | Identified,
+    model: StateSpaceModel | HasModel,
     *,
     freedom: int | None = None,
     steady: bool = True,
@@ -231,7 +233,7 @@ def positive_definite(V: Array) -> bool:
     return bool(np.all(sizes > 0) and np.linalg.eigvalsh(V / np.outer(sizes, sizes))[0] > len(V) * np.finfo(np.float64).eps)
 
 
-def gain_errors(model: Matrices | Identified | None) -> Array | None:
+def gain_errors(model: StateSpaceModel | HasModel | None) -> Array | None:
     """Return the errors (K, p, n_u) of the static gain of an identified model, whose sum of squares over K is their variance: what it makes
     of inputs whose mean moves by m is wrong by errors @ m. None where the model has no standard errors, or no static gain."""
     uncertainty = getattr(model, "uncertainty", None)
@@ -261,7 +263,7 @@ def _refusal(chance: float, p: int) -> str:
     return ""
 
 
-def _unsteady(matrices: Matrices, uncertainty: Any, steady: bool) -> str:
+def _unsteady(matrices: StateSpaceModel, uncertainty: Any, steady: bool) -> str:
     """Return why the static gain says nothing of actuators; an empty string where it does."""
     poles = np.linalg.eigvals(matrices.A) if uncertainty is None else uncertainty.model.poles
     deviations = np.zeros(len(poles)) if uncertainty is None else np.abs(uncertainty.poles())
@@ -271,7 +273,7 @@ def _unsteady(matrices: Matrices, uncertainty: Any, steady: bool) -> str:
     return "" if steady else UNSTEADY
 
 
-def _static_gain(matrices: Matrices, root: Array | None) -> tuple[Array, Array]:
+def _static_gain(matrices: StateSpaceModel, root: Array | None) -> tuple[Array, Array]:
     """Return G(1) (p, n_u) and its errors (K, p, n_u), as linear maps of the numbers of the model's root: dG(1) = L dT X with L and X of
     `invariants.py` at z = 1."""
     (p, n), n_u = matrices.C.shape, matrices.B.shape[1]

@@ -28,7 +28,8 @@ from ...method.rows.known_noise import space_in_known_noise, whitening
 from ...method.rows.space_by_rows import BEYOND, fault_space_by_rows, identified_fault_space
 from ...method.signal.reconstruction import Reconstruction, reconstruct_fault
 from ...method.signal.residual_sizes import loudest
-from ...method.space.by_ranks import FaultSpaceEstimate, told_fault_space
+from ...method.space.by_ranks import told_fault_space
+from ...method.space.estimate import FaultSpaceEstimate
 from ..changes.table_rows import FREEZING, LOSS
 from ..doubt.listing import named
 from ..healthy.explained_share import noise_share
