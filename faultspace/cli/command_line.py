@@ -229,9 +229,11 @@ def identify(
     """
     from . import identifying
 
-    settings = {"order": order, "block_rows": block_rows, "faults": faults, "healthy_until": healthy_until}
-    known = identifying.Known(**settings, healthy=healthy, noise_level=noise_level, operating_point=operating_point, dt=dt, gaps=gaps)
-    return identifying.run(data, known, inputs=inputs or [], outputs=outputs or [], out=out, as_json=json, scheduler=scheduler)
+    level = noise_level[0] if noise_level and len(noise_level) == 1 else noise_level or None
+    known = {"order": order, "block_rows": block_rows, "n_v": faults, "healthy": healthy_until}
+    known |= {"noise_level": level, "operating_point": operating_point, "dt": dt}
+    told = {"inputs": inputs or [], "outputs": outputs or [], "gaps": gaps, "scheduler": scheduler}
+    return identifying.run(data, known, healthy=healthy, out=out, as_json=json, **told)
 
 
 @_command()

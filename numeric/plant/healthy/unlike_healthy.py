@@ -22,7 +22,6 @@ import numpy as np
 
 from ....base.arrays import Array
 from ....base.errors import shorten
-from ..changes.freezing import longest_run
 from .healthy_model import HEALTHY_LEVEL
 
 # An input of more than so many times its healthy size drives model error that the healthy samples do not show. `identify_healthy.py
@@ -89,3 +88,9 @@ def largest_ratio(healthy: int, later: int) -> float:
     few."""
     scales = float(np.log(healthy) - np.log(np.log(2 / HEALTHY_LEVEL)))
     return float(np.log(2 * later / HEALTHY_LEVEL)) / scales if scales > 0.0 else np.inf
+
+
+def longest_run(values: Array) -> int:
+    """Return the samples of the longest run of equal values."""
+    edges = np.flatnonzero(np.concatenate([[True], values[1:] != values[:-1], [True]]))
+    return int(np.diff(edges).max())
