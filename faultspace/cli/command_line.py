@@ -230,9 +230,9 @@ def identify(
     from . import identifying
 
     level = noise_level[0] if noise_level and len(noise_level) == 1 else noise_level or None
-    known = {"order": order, "block_rows": block_rows, "n_v": faults, "healthy": healthy_until}
+    known: dict[str, Any] = {"order": order, "block_rows": block_rows, "n_v": faults, "healthy": healthy_until}
     known |= {"noise_level": level, "operating_point": operating_point, "dt": dt}
-    told = {"inputs": inputs or [], "outputs": outputs or [], "gaps": gaps, "scheduler": scheduler}
+    told: dict[str, Any] = {"inputs": inputs or [], "outputs": outputs or [], "gaps": gaps, "scheduler": scheduler}
     return identifying.run(data, known, healthy=healthy, out=out, as_json=json, **told)
 
 

@@ -19,7 +19,7 @@ import psutil
 import pytest
 
 from faultspace.base.errors import InvalidInput
-from faultspace.cli import study_report
+from faultspace.cli import studying
 from faultspace.numeric.study.groups import Plan
 from faultspace.numeric.study.keeping import LOCK, TEMPORARY, UNFINISHED, Settings, keeping
 from faultspace.numeric.study.studies import PUBLISHED, STUDIES
@@ -35,7 +35,7 @@ PATIENCE = 120.0
 
 @pytest.fixture
 def without_figures(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(study_report, "_draw", lambda studies, folder: None)
+    monkeypatch.setattr(studying, "_draw", lambda studies, folder: None)
 
 
 def study(out: Path, *more: str, systems: str = FEW) -> Run:

@@ -27,6 +27,7 @@ decides nothing.
     HealthyReference    `innovations` and `spectra` of any record, `response` A(f) of the predictor, the `covariances`
     Spectra, spectra    tapered transforms of a record at their centres
     covering_spectra    the same, with no frequency left out
+    noise_share         how much of mere noise n_v signals explain at most
 """
 
 from __future__ import annotations
@@ -422,3 +423,21 @@ def _covariances(record: Spectra, share: float) -> tuple[Array, Complex, int]:
     starts = np.clip(np.arange(count) - width // 2, 0, count - width)
     freedom = share * tapers * width
     return record.frequencies, np.asarray((sums[starts + width] - sums[starts]) / freedom), int(freedom)
+
+
+def noise_share(r: ArrayLike, n_v: int, units: Array, *, healthy: bool) -> float:
+    """Return the share that n_v <= p signals could explain of noise, r (N, p) in `units` (p,); `healthy`: r is a residual without fault.
+
+    Otherwise only the spectrum of each output is taken from r. At each frequency the signals of one F, G reach one n_v-dimensional subspace
+    of the outputs, and of noise of spectrum Phi(f) no such subspace holds more than the n_v largest eigenvalues of Phi(f). Summed over the
+    frequencies this bounds what any F, G explain of noise: a share below it is no sign of a fault. Many tapers make the largest eigenvalues
+    larger, and so the bound. Raises InvalidData for fewer than 4 MANY_TAPERS samples.
+    """
+    residual = signal(r, "r") / units
+    if len(residual) < 4 * MANY_TAPERS:
+        raise InvalidData(f"r has {counted(len(residual), 'sample')}; at least {4 * MANY_TAPERS} are needed for its spectra: record more")
+    x = spectra(residual - residual.mean(axis=0), MANY_TAPERS).transforms
+    alone = np.sort(np.sum(np.abs(x) ** 2, axis=1), axis=1)
+    powers = np.linalg.eigvalsh(x.conj().transpose(0, 2, 1) @ x) if healthy else alone
+    total = float(powers.sum())
+    return float(powers[:, -n_v:].sum()) / total if total else 1.0

@@ -32,7 +32,7 @@ from ...method.space.by_ranks import told_fault_space
 from ...method.space.estimate import FaultSpaceEstimate
 from ..changes.table_rows import FREEZING, LOSS
 from ..doubt.listing import named
-from ..healthy.explained_share import noise_share
+from ..healthy.healthy_model import noise_share
 from .explaining import looked_at, most_moved
 from .findings import Counted, CountedBy, Explained, Signal, Signals, Space
 
