@@ -47,7 +47,7 @@ from faultspace.numeric import arx_reduction, fault_dimension
 from faultspace.numeric.study.study_cases import identified_case
 from faultspace.numeric.study.runs import study_run
 from faultspace.numeric.study.random_systems import study_system
-from faultspace.numeric.study.study_workers import done_by
+from faultspace.numeric.study.studies import done_by
 
 run = study_run(study_system(2, np.random.SeedSequence(5)), 7, level=0.01, samples=300)
 answers = [fs.identify(run.y, run.u, order=5).to_json()]
