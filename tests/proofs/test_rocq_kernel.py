@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from faultspace.cli.consoles import answers
-from faultspace.cli.verdict_summary import print_machine
+from faultspace.cli.verdict_tables import print_machine
 from faultspace.proofs.rocq import build as rocq_build
 from faultspace.proofs.rocq import recheck as rocq_recheck
 from faultspace.proofs.rocq.recheck import second_check

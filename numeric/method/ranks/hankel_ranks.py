@@ -26,7 +26,7 @@ import numpy as np
 import scipy.linalg
 
 from ....base.arrays import Array
-from .triangles import stacked_triangle
+from .sample_windows import stacked_triangle
 
 ROUNDINGS = 64.0
 SPREAD = 30.0
