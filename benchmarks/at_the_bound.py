@@ -41,7 +41,7 @@ from faultspace.numeric.method.model.models import StateSpaceModel
 from faultspace.numeric.method.model.past_inputs import pi_moesp
 from faultspace.numeric.method.model.past_outputs import po_moesp
 from faultspace.numeric.method.model.uncertainty import Uncertainty
-from faultspace.numeric.study.bound.information_bound import COUNT, cramer_rao, relative_error
+from faultspace.numeric.study.information_bound import COUNT, cramer_rao, relative_error
 
 Array = NDArray[np.float64]
 Method = Callable[[Trial], StateSpaceModel]

@@ -24,7 +24,7 @@ import scipy.signal
 from numpy.typing import NDArray
 
 from faultspace.numeric.method.model.models import StateSpaceModel
-from faultspace.numeric.study.bound.driving_spectra import Spectra, Spectrum, filtered, through, total, white
+from faultspace.numeric.study.driving_spectra import Spectra, Spectrum, filtered, through, total, white
 from faultspace.numeric.study.random_systems import study_system
 from faultspace.numeric.study.runs import LOW_PASS, NOISE_GAIN, coloured_noise, response, study_faults
 

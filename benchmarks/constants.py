@@ -1,13 +1,12 @@
 """This measures, on seeds of the user's choice, what the constants of rules are worth, and tells which of them another value would improve.
 
-    python benchmarks/constants.py order|laws|healthy|space|squares [--trials 20] [--seed 1 ..] [--only NAME ..]
+    python benchmarks/constants.py order|laws|healthy|space [--trials 20] [--seed 1 ..] [--only NAME ..]
         [--samples 1001] [--jobs 1] [--markdown]
 
     order       LEAD of `numeric/method/model/past_inputs.py`: the order that PI-MOESP reads off a gap
     laws        `numeric/method/ranks/residual_laws.py`: the count of faults in a residual alone
     healthy     `numeric/plant/healthy/healthy_model.py` and `against_healthy.py`: the count against a healthy record
     space       `numeric/method/space/by_likelihood.py`: the number of zeros by likelihood, from a residual alone
-    squares     the same module: the number of zeros, and the space, by least squares
 
 What is asked on which records stands in `constants_questions.py`. Every question is asked of the same records with each constant as it is
 and multiplied by each factor, so that answers are compared in pairs. An answer is right, undecided or wrong, and may have an error.

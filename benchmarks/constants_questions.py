@@ -148,12 +148,6 @@ def of_spaces(trial: int, seed: int, samples: int) -> Iterator[Ask]:
         yield _space(one, by_likelihood.fault_space_by_likelihood)
 
 
-def of_squares(trial: int, seed: int, samples: int) -> Iterator[Ask]:
-    """Ask the same by least squares."""
-    for one in _trials(trial, seed, samples):
-        yield _space(one, by_likelihood.fault_space_by_least_squares)
-
-
 def _trials(trial: int, seed: int, samples: int) -> Iterator[Trial]:
     own = 1000 * seed + trial
     yield from (paper_like(zeros, samples, own) for zeros in range(4))
@@ -186,6 +180,5 @@ QUESTIONS = {
             against_healthy_records,
         ),
         Question("space", of("IDLE NEEDED QUIET", by_likelihood), of_spaces),
-        Question("squares", of("CLEAR_DROP EXTRA_WINDOWS REWEIGHTINGS SIGNAL_FLOOR", by_likelihood), of_squares),
     )
 }

@@ -27,7 +27,8 @@ from numpy.typing import NDArray
 from faultspace.numeric.method.model.models import StateSpaceModel
 from faultspace.numeric.method.ranks.sample_windows import hankel_factor
 from faultspace.numeric.method.space import by_likelihood as noisy_fault_space
-from faultspace.numeric.method.space.by_ranks import fault_space, fault_space_by_least_squares, fault_space_by_likelihood
+from faultspace.numeric.method.space.by_likelihood import fault_space_by_likelihood
+from faultspace.numeric.method.space.by_ranks import fault_space
 from faultspace.numeric.method.space.distances import principal_angles
 from faultspace.numeric.method.space.estimate import FaultSpaceEstimate, kernel_conditions
 from faultspace.numeric.study.random_systems import study_system
@@ -116,7 +117,6 @@ def coverage(trials: list[Trial], answers: list[FaultSpaceEstimate]) -> str:
 def line(label: str, samples: int, trials: list[Trial], seed: int) -> str:
     """This writes one row of the table."""
     answers = [fault_space_by_likelihood(t.r, t.A, t.C, n_v=t.n_v) for t in trials]
-    squares = [fault_space_by_least_squares(t.r, t.A, t.C, n_v=t.n_v) for t in trials]
     rng = np.random.default_rng(seed)
     lags = [-(-(len(t.A) - t.Z.shape[1] + t.n_v) // (len(t.C) - t.n_v)) for t in trials]
     columns = [
@@ -127,7 +127,7 @@ def line(label: str, samples: int, trials: list[Trial], seed: int) -> str:
         [angle(t, np.linalg.qr(rng.standard_normal(t.Z.shape))[0]) for t in trials],
     ]
     medians = "".join(f"{np.median(column):>13.3g}" for column in columns)
-    counts = f"{verdicts(trials, answers):>10}{verdicts(trials, squares):>15}{coverage(trials, answers):>10}"
+    counts = f"{verdicts(trials, answers):>10}{coverage(trials, answers):>10}"
     return f"{label:<22}{samples:>6}{medians}{counts}"
 
 
@@ -157,7 +157,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
     names = ("as published", "lag + 1", "rows", "likelihood", "random")
-    heads = "".join(f"{name:>13}" for name in names) + f"{'zeta':>10}{'zeta (squares)':>15}{'cover':>10}"
+    heads = "".join(f"{name:>13}" for name in names) + f"{'zeta':>10}{'cover':>10}"
     print(f"{'system':<22}{'N':>6}{heads}", flush=True)
     seeds = range(1000 * arguments.seed, 1000 * arguments.seed + arguments.trials)
     for samples in (1001, 10000):

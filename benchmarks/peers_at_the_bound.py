@@ -48,7 +48,7 @@ from faultspace.numeric.audit.records import Broken, Refused
 from faultspace.numeric.audit.subjects.subprocess_adapter import Exec
 from faultspace.numeric.method.model.models import StateSpaceModel
 from faultspace.numeric.method.model.uncertainty import Uncertainty
-from faultspace.numeric.study.bound.information_bound import cramer_rao, relative_error
+from faultspace.numeric.study.information_bound import cramer_rao, relative_error
 
 HERE = Path(__file__).resolve().parent
 STORED, PAGE, PICTURE = HERE / "peers_at_the_bound.json", HERE / "README.md", HERE.parent / "docs" / "peers.svg"

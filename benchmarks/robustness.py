@@ -26,8 +26,8 @@ from numpy.typing import NDArray
 
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import ReducedModel, Spectra, StateSpaceModel, arx_reduction, arx_reduction_experiments
-from faultspace.numeric.study.bound.driving_spectra import white
-from faultspace.numeric.study.bound.information_bound import COUNT, cramer_rao
+from faultspace.numeric.study.driving_spectra import white
+from faultspace.numeric.study.information_bound import COUNT, cramer_rao
 
 Array = NDArray[np.float64]
 Estimate = Callable[[Trial, np.random.Generator], ReducedModel]

@@ -24,10 +24,10 @@ from numpy.typing import NDArray
 
 from faultspace.numeric import FaultSpectra, StateSpaceModel
 from faultspace.numeric.method.space.estimate import kernel_conditions
-from faultspace.numeric.study.bound.driving_spectra import Spectrum, filtered, white
-from faultspace.numeric.study.bound.space_information import kernel_rows
+from faultspace.numeric.study.driving_spectra import Spectrum, filtered, white
 from faultspace.numeric.study.random_systems import study_system
 from faultspace.numeric.study.runs import LOW_PASS, NOISE_GAIN, coloured_noise, response, study_faults
+from faultspace.numeric.study.space_information import kernel_rows
 
 Array = NDArray[np.float64]
 

@@ -34,7 +34,7 @@ EXPERIMENTS = {
 CLAIMS = {
     "claims": "ten claims, from one line to longer ones, which `faultspace claim` decides",
     "literature": "statements of the field with their sources, right ones and wrong or loose ones, with their verdicts",
-    "papers": "three papers as a new user reads them: seven readings of their abstracts, with their verdicts",
+    "papers": "readings of papers as a new user reads them, most of them of abstracts, with their verdicts",
     "pairs": "claims about two systems, with the same A and C or not: how many samples tell them apart",
     "choices": "claims about other fault columns for the same system: which of them make the same outputs",
     "records": "claims about a system with inputs and the data that it made: what a signal has to excite",

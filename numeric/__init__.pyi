@@ -49,9 +49,9 @@ from .plant.monitor.alarms import Alarm as Alarm
 from .plant.monitor.alarms import Watched as Watched
 from .plant.monitor.monitoring import Monitor as Monitor
 from .plant.pipeline import identify as identify
-from .study.bound.driving_spectra import Spectra as Spectra
-from .study.bound.information_bound import cramer_rao as cramer_rao
-from .study.bound.space_information import FaultSpectra as FaultSpectra
-from .study.bound.space_information import fault_space_bound as fault_space_bound
+from .study.driving_spectra import Spectra as Spectra
+from .study.information_bound import cramer_rao as cramer_rao
+from .study.space_information import FaultSpectra as FaultSpectra
+from .study.space_information import fault_space_bound as fault_space_bound
 
 __all__: list[str]

@@ -22,6 +22,7 @@ from ..base.progress import silent
 from ..base.tasks import Once, ordered, processes
 from .claims import check_of
 from .evidence.material import Carried, Folder, Material, Shelf, Wanted
+from .evidence.once_a_run import in_run
 from .hypotheses import ablations
 from .kept_answers import KeptAnswers
 from .trust.checker import Malformed, Rejected
@@ -132,6 +133,7 @@ def _in_rounds(bench: Workbench, tasks: Sequence[Task], shelf: Shelf, kept: Kept
 
 
 def _tried(task: Task, effort: str, shelf: Shelf) -> Answer | tuple[Material, ...]:
+    in_run(shelf.run)
     try:
         return _done(task, _bench(effort, shelf))
     except Wanted as wanted:

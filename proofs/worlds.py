@@ -23,7 +23,7 @@ from typing import Any
 
 import joblib
 
-from ..base.errors import InvalidData, InvalidInput
+from ..base.errors import InvalidData, InvalidInput, quote_path
 from ..base.kept_lines import KeptLines, keeping_lines
 from ..base.messages import say
 from ..base.progress import silent, working
@@ -151,6 +151,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with shared(given.scheduler), keeping_lines(given.out, FORMAT, _good, "--out") as kept:
             finished = {_unit(line): dict(line) for line in kept.lines}
             waiting = [unit for unit in chosen if unit not in finished]
+            told = len(chosen) - len(waiting)
             for unit, line in _run(waiting, kept, given.jobs or joblib.cpu_count(), given.scheduler):
                 finished[unit] = line
     except InvalidInput as error:
@@ -161,6 +162,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     mine = [finished[unit] for unit in chosen]
     print(covered(mine))
     print(cost(mine, dict.fromkeys(unit[:3] for unit in everything)))
+    if told:
+        print(f"{told} of {len(mine)} units were gone through by an earlier run, as {quote_path(str(given.out))} tells it")
     failing = [words for line in mine for words in line["failing"]]
     print("\n".join(failing) if failing else f"no counterexample to any of {len(READINGS)} readings")
     return 1 if failing else 0

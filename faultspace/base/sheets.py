@@ -11,7 +11,7 @@ Shown      gives a record with `title` and `sheet` its `summary()`, a short `rep
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from math import log
 from textwrap import fill
@@ -33,6 +33,16 @@ def line(name: str, value: str) -> str:
 def counted(count: int, noun: str, plural: str = "") -> str:
     """Return the number with its noun, in the plural unless it is one; `plural` is needed where it is not the noun with an s."""
     return f"{count} {noun if count == 1 else plural or noun + 's'}"
+
+
+def or_undecided(number: int | None) -> str:
+    """Return the number, or that it is undecided."""
+    return "undecided" if number is None else str(number)
+
+
+def several(names: Sequence[str], most: int) -> str:
+    """Return the names on one line, the first ones of many."""
+    return ", ".join(names[:most]) + (f", ... ({len(names)} in all)" if len(names) > most else "")
 
 
 def decibels(logarithm: float, unit: str = " dB") -> str:

@@ -18,13 +18,10 @@ import typer
 from typer.main import get_command
 
 from .. import __version__
-from ..base.errors import InvalidInput
 from ..base.messages import say
-from .audit_command import audit
-from .conjecture_command import conjecture
+from .claim_commands import check, claim, conjecture, report, verify
 from .failures import BAD_INPUT, INTERRUPTED, STOPPED, Terminated, asks_report, guarded, terminable
-from .option_types import Effort, Expected, Floats, Json, OneSystem, Plain, Verbose, in_our_words, jobs_number, number
-from .report_command import report
+from .option_types import Expected, Floats, Json, Language, OneSystem, Plain, Scheduler, in_our_words, jobs_number, number
 
 Given = ParamSpec("Given")
 
@@ -81,10 +78,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 @app.callback(invoke_without_command=True)
-def _top(
-    context: typer.Context,
-    version: Annotated[bool, typer.Option("--version", help="Print the version and stop.")] = False,
-) -> None:
+def _top(context: typer.Context, version: Annotated[bool, typer.Option("--version", help="Print the version and stop.")] = False) -> None:
     if version:
         typer.echo(f"faultspace {__version__}")
         raise typer.Exit(0)
@@ -109,117 +103,13 @@ def _command(name: str | None = None) -> Callable[[Callable[Given, int]], Callab
     return made
 
 
-@_command()
-def verify(
-    effort: Annotated[Effort, typer.Option(help="Samples of systems; or every small one, for the background.")] = Effort.quick,
-    claim: Annotated[
-        list[str] | None, typer.Option("--claim", metavar="ID", help="Only this claim, a page of it; may be repeated.")
-    ] = None,
-    jobs: Annotated[
-        int | None, typer.Option(metavar="K", parser=jobs_number, help="Processes at a time.", show_default="all cores")
-    ] = None,
-    scheduler: Annotated[str | None, typer.Option(metavar="ADDRESS", help="Work on the Dask cluster with this scheduler instead.")] = None,
-    out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the headline certificates and verdicts.json there.")] = None,
-    recheck: Annotated[
-        bool, typer.Option("--recheck", help="First compile the Rocq theory anew, whatever is cached, and let coqchk read it.")
-    ] = False,
-    resume: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="Keep what is decided there, and go on with what an earlier run has kept.", show_default=False),
-    ] = None,
-    verbose: Verbose = False,
-    json: Json = False,
-) -> int:
-    """Decide the claims of the paper.
-
-    A claim gets a line; -v adds the long tables, --claim prints a page of one. Exit 0 if every verdict is the expected one, else 1.
-    """
-    from . import verifying
-
-    workers = jobs or (os.cpu_count() or 1 if scheduler is None else -1)
-    return verifying.run(
-        claim or [],
-        effort=effort.value,
-        jobs=workers,
-        scheduler=scheduler,
-        out=out,
-        recheck=recheck,
-        verbose=verbose,
-        as_json=json,
-        resume=resume,
-    )
-
-
-@_command()
-def check(
-    certificate: Annotated[list[str], typer.Argument(metavar="CERTIFICATE...", show_default=False, help="Certificate files.")],
-    system: Annotated[
-        list[str] | None,
-        typer.Option("--system", metavar="FILE", help="Accept only what is about this system; may be repeated."),
-    ] = None,
-    rocq: Annotated[bool, typer.Option("--rocq", help="Have Rocq's kernel recompute them, too; needs coqc with MathComp.")] = False,
-    json: Json = False,
-) -> int:
-    """Run the checker on certificates.
-
-    Exit 0: all verified; 3: all verified, one or more under an assumption that is told; 1: one is
-    rejected, or not accepted by Rocq; 2: one does not parse.
-    """
-    from . import checking
-
-    return checking.run(certificate, systems=system or [], rocq=rocq, as_json=json)
-
-
-@_command()
-def claim(
-    file: Annotated[str, typer.Argument(metavar="FILE", show_default=False, help="Claims in TOML, - or example:claims.")],
-    only: Annotated[
-        list[str] | None, typer.Option("--claim", metavar="ID", help="Only this claim of the file; may be repeated.", show_default=False)
-    ] = None,
-    ablation: Annotated[bool, typer.Option("--ablation/--no-ablation", help="Try each claim without each of its hypotheses, too.")] = True,
-    most: Annotated[
-        int | None,
-        typer.Option(metavar="K", parser=number(int, 1, 10**9), help="Go through no more systems of a box.", show_default="10^9"),
-    ] = None,
-    jobs: Annotated[int, typer.Option(metavar="K", parser=jobs_number, help="Processes at a time, for large boxes.")] = 1,
-    explain: Annotated[
-        str | None, typer.Option(metavar="SYSTEM", help="Tell what each part of the claims is on this system, instead.", show_default=False)
-    ] = None,
-    sharpen: Annotated[
-        list[str] | None,
-        typer.Option(metavar="ID", help="Seek sharper bounds in the place of this claim's, instead; may be repeated.", show_default=False),
-    ] = None,
-    out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the certificates there.", show_default=False)] = None,
-    resume: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Keep there what was gone through, and go on from it.", show_default=False)
-    ] = None,
-    scheduler: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="Work on the Dask cluster with this scheduler instead.", show_default=False)
-    ] = None,
-    json: Json = False,
-) -> int:
-    """Decide claims of your own about systems.
-
-    Each is refuted by a counterexample, the smallest of its box where that has one, proved, not refuted, or vacuous. The page
-    docs/your-claims.md tells the language. Exit 1 where a claim names the verdict that it expects and gets another one.
-    """
-    from . import claiming
-
-    if sharpen:
-        if only or explain is not None:
-            raise InvalidInput("--sharpen: got --claim or --explain, too, expected --sharpen ID alone")
-        return claiming.sharpen(file, sharpen, most=most, jobs=jobs, out=out, as_json=json)
-    return claiming.run(
-        file, only=only or [], ablation=ablation, most=most, jobs=jobs, on=explain, out=out, as_json=json, cluster=scheduler, resume=resume
-    )
-
-
-_command()(conjecture)
+for _of_claims in (verify, check, claim, conjecture):
+    _command()(_of_claims)
 
 
 @_command()
 def inspect(
-    system: Annotated[list[str], typer.Argument(metavar="SYSTEM...", show_default=False, help="System files, - or example:NAME.")],
+    system: Annotated[list[str], typer.Argument(metavar="SYSTEM...", help="System files, - or example:NAME.")],
     json: Json = False,
     floats_exactly: Floats = False,
 ) -> int:
@@ -237,7 +127,7 @@ def inspect(
 def compare(
     first: OneSystem,
     second: OneSystem,
-    expect: Annotated[Expected | None, typer.Option(help="Exit 1 unless this is the answer.", show_default=False)] = None,
+    expect: Annotated[Expected | None, typer.Option(help="Exit 1 unless this is the answer.")] = None,
     word: Annotated[bool, typer.Option("--word", help='The separating word in full; with --json as "word".')] = False,
     json: Json = False,
     floats_exactly: Floats = False,
@@ -255,9 +145,7 @@ def compare(
 
 @_command()
 def limit(
-    experiment: Annotated[
-        list[str], typer.Argument(metavar="EXPERIMENT...", show_default=False, help="Experiment files, - or example:NAME.")
-    ],
+    experiment: Annotated[list[str], typer.Argument(metavar="EXPERIMENT...", help="Experiment files, - or example:NAME.")],
     json: Json = False,
     floats_exactly: Floats = False,
 ) -> int:
@@ -277,20 +165,14 @@ def identify(
         list[str],
         typer.Argument(
             metavar="DATA...",
-            show_default=False,
             help="A CSV, Parquet, NPZ, NPY or MAT file of measurements, or a folder of Parquet files, which are one record; several are "
             "experiments of one plant.",
         ),
     ],
-    inputs: Annotated[
-        list[str] | None, typer.Option("--inputs", metavar="NAME,...", show_default=False, help="Input channels; may be repeated.")
-    ] = None,
-    outputs: Annotated[list[str] | None, typer.Option("--outputs", metavar="NAME,...", show_default=False, help="Output channels.")] = None,
+    inputs: Annotated[list[str] | None, typer.Option("--inputs", metavar="NAME,...", help="Input channels; may be repeated.")] = None,
+    outputs: Annotated[list[str] | None, typer.Option("--outputs", metavar="NAME,...", help="Output channels.")] = None,
     out: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="DIR", show_default=False, help="Write model, fault space, signal, plots there; only our own files are replaced."
-        ),
+        Path | None, typer.Option(metavar="DIR", help="Write model, fault space, signal, plots there; only our own files are replaced.")
     ] = None,
     order: Annotated[
         int | None, typer.Option(metavar="N", parser=number(int, 1, 3), help="Number of states.", show_default="chosen from the data")
@@ -303,27 +185,16 @@ def identify(
         int | None, typer.Option(metavar="K", parser=number(int, 0, 1), help="Number of independent faults.", show_default="estimated")
     ] = None,
     healthy_until: Annotated[
-        int | None,
-        typer.Option(
-            metavar="K", parser=number(int, 1, 1000), help="The first K samples are without fault: count beyond them.", show_default=False
-        ),
+        int | None, typer.Option(metavar="K", parser=number(int, 1, 1000), help="The first K samples are without fault: count beyond them.")
     ] = None,
     healthy: Annotated[
         str | None,
-        typer.Option(
-            "--healthy",
-            metavar="FILE",
-            help="A record without fault, of the same channels: model, means and noise from it.",
-            show_default=False,
-        ),
+        typer.Option("--healthy", metavar="FILE", help="A record without fault, of the same channels: model, means and noise from it."),
     ] = None,
     noise_level: Annotated[
         list[float] | None,
         typer.Option(
-            metavar="SIGMA",
-            parser=number(float, 0, 0.1),
-            help="Deviation of the sensors' noise, once or once an output, in its units.",
-            show_default=False,
+            metavar="SIGMA", parser=number(float, 0, 0.1), help="Deviation of the sensors' noise, once or once an output, in its units."
         ),
     ] = None,
     operating_point: Annotated[
@@ -339,18 +210,10 @@ def identify(
     ] = False,
     dt: Annotated[
         float | None,
-        typer.Option(
-            metavar="SECONDS",
-            parser=number(float, 0, 0.1),
-            help="Time from sample to sample; the model's file keeps it.",
-            show_default=False,
-        ),
+        typer.Option(metavar="SECONDS", parser=number(float, 0, 0.1), help="Time from sample to sample; the model's file keeps it."),
     ] = None,
     scheduler: Annotated[
-        str | None,
-        typer.Option(
-            metavar="ADDRESS", help="Have the Dask cluster with this scheduler share the work of long records.", show_default=False
-        ),
+        str | None, typer.Option(metavar="ADDRESS", help="Have the Dask cluster with this scheduler share the work of long records.")
     ] = None,
     json: Json = False,
 ) -> int:
@@ -366,16 +229,16 @@ def identify(
     """
     from . import identifying
 
-    settings = {"order": order, "block_rows": block_rows, "faults": faults, "healthy_until": healthy_until}
-    known = identifying.Known(**settings, healthy=healthy, noise_level=noise_level, operating_point=operating_point, dt=dt, gaps=gaps)
-    return identifying.run(data, known, inputs=inputs or [], outputs=outputs or [], out=out, as_json=json, scheduler=scheduler)
+    level = noise_level[0] if noise_level and len(noise_level) == 1 else noise_level or None
+    known: dict[str, Any] = {"order": order, "block_rows": block_rows, "n_v": faults, "healthy": healthy_until}
+    known |= {"noise_level": level, "operating_point": operating_point, "dt": dt}
+    told: dict[str, Any] = {"inputs": inputs or [], "outputs": outputs or [], "gaps": gaps, "scheduler": scheduler}
+    return identifying.run(data, known, healthy=healthy, out=out, as_json=json, **told)
 
 
 @_command()
 def monitor(
-    model: Annotated[
-        str, typer.Argument(metavar="MODEL", show_default=False, help="The model.json of identify, its folder, or a saved monitor.")
-    ],
+    model: Annotated[str, typer.Argument(metavar="MODEL", help="The model.json of identify, its folder, or a saved monitor.")],
     inputs: Annotated[
         list[str] | None, typer.Option("--inputs", metavar="NAME,...", help="Input columns.", show_default="as in the model's file")
     ] = None,
@@ -387,10 +250,7 @@ def monitor(
         typer.Option("--healthy", metavar="FILE", help="A record without fault to calibrate by.", show_default="the model's own"),
     ] = None,
     healthy_until: Annotated[
-        int | None,
-        typer.Option(
-            metavar="K", parser=number(int, 1, 10000), help="Instead: the first K samples of the stream are one.", show_default=False
-        ),
+        int | None, typer.Option(metavar="K", parser=number(int, 1, 10000), help="Instead: the first K samples of the stream are one.")
     ] = None,
     follow: Annotated[
         str | None, typer.Option("--follow", metavar="FILE", help="Watch a file that grows.", show_default="standard input")
@@ -413,8 +273,7 @@ def monitor(
         typer.Option(metavar="K", parser=number(int, 2, 20), help="Samples of the chi-square test.", show_default="20, or as in MODEL"),
     ] = None,
     save: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="Write the monitor there at the end, a MODEL that goes on later.", show_default=False),
+        Path | None, typer.Option(metavar="FILE", help="Write the monitor there, every minute and at the end: a MODEL that goes on.")
     ] = None,
     json: Json = False,
 ) -> int:
@@ -432,18 +291,15 @@ def monitor(
 
 @_command("monte-carlo")
 def monte_carlo(
-    out: Annotated[Path, typer.Option(metavar="DIR", show_default=False, help="Write tables, figures and all cases there.")],
+    out: Annotated[Path, typer.Option(metavar="DIR", help="Write tables, figures and all cases there.")],
     systems: Annotated[
         int, typer.Option(metavar="K", parser=number(int, 1, 100), help="Random systems, a quarter each with 0, 1, 2, 3 zeros.")
     ] = 100,
     samples: Annotated[int, typer.Option(metavar="K", parser=number(int, 1, 1001), help="Samples of each record.")] = 1001,
     jobs: Annotated[
-        int | None,
-        typer.Option(metavar="K", parser=jobs_number, help="Processes at a time.", show_default="as many cores as are worth it"),
+        int | None, typer.Option(metavar="K", parser=jobs_number, help="Processes at a time.", show_default="as many cores as are worth it")
     ] = None,
-    scheduler: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="Work on the Dask cluster with this scheduler instead.", show_default=False)
-    ] = None,
+    scheduler: Scheduler = None,
     dask: Annotated[str | None, typer.Option(hidden=True)] = None,  # the name that it had
     seed: Annotated[
         int, typer.Option(metavar="K", parser=number(int, 0, 1907), help="Equal seeds give equal results, whoever does the work.")
@@ -464,15 +320,76 @@ def monte_carlo(
     )
 
 
-_command()(audit)
+@_command()
+def audit(
+    adapter: Annotated[
+        str | None, typer.Argument(metavar="[ADAPTER]", help="module:object, file.py:object, module or file; else our own code.")
+    ] = None,
+    command: Annotated[str | None, typer.Option("--exec", metavar="CMD", help="A program that speaks JSON lines instead.")] = None,
+    peer: Annotated[str | None, typer.Option(metavar="NAME", help="A published package instead; see --peers.")] = None,
+    result: Annotated[Path | None, typer.Option("--from", metavar="FILE", help="Report what --json printed before; nothing runs.")] = None,
+    peers: Annotated[bool, typer.Option("--peers", help="List the packages that adapters come for, and what each needs.")] = False,
+    listed: Annotated[bool, typer.Option("--list", help="List the checks that would be asked, and ask none.")] = False,
+    check: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--check", metavar="NAME", help="Only these: SLUG, SLUG[VECTOR] or SLUG[VECTOR]-FUNCTION, * and ? for anything; repeatable."
+        ),
+    ] = None,
+    seed: Annotated[int, typer.Option(metavar="N", parser=number(int, 0, 0), help="Draw the vectors of all kinds of trouble anew.")] = 0,
+    quick: Annotated[bool, typer.Option("--quick", help="Of every check one vector, and all kinds of trouble.")] = False,
+    expected: Annotated[
+        Path | None, typer.Option("--expected-failures", metavar="FILE", help="Known failures, a line each, NAME: REASON.")
+    ] = None,
+    junit: Annotated[Path | None, typer.Option(metavar="FILE", help="Write JUnit's XML there, too.")] = None,
+    badge: Annotated[Path | None, typer.Option(metavar="FILE", help="Write a badge there, too: .svg, or .json for shields.io.")] = None,
+    reproduce: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Print a script that shows this check without faultspace, and ask none.")
+    ] = None,
+    language: Annotated[Language, typer.Option(help="Of the script.")] = Language.python,
+    export: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Write the checks as JSON for use without faultspace, and ask none.")
+    ] = None,
+    timeout: Annotated[
+        float,
+        typer.Option(metavar="SECONDS", parser=number(float, 0.1, 60, 1e7), help="How long a check, with --exec an answer, may take."),
+    ] = 60.0,
+    memory: Annotated[
+        float, typer.Option(metavar="GIB", parser=number(float, 0.5, 4, 1e6), help="How much memory a check may take.")
+    ] = 4.0,
+    environment: Annotated[
+        list[str] | None, typer.Option("--env", metavar="NAME", help="It sees this variable of the environment, too; * is all; repeatable.")
+    ] = None,
+    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print a line a cause, and the count.")] = False,
+    verbose: Annotated[int, typer.Option("-v", "--verbose", count=True, help="Print a row a slug, too; -vv: a row a check.")] = 0,
+    json: Json = False,
+) -> int:
+    """Put an implementation through checks.
+
+    The answers are known exactly; exit 1 if a must is not met. The adapter has some of: identify, residual, window_ranks, fault_dimension,
+    fault_space, reconstruct, structure, count_faults, identified_fault_space. It runs in a process of
+    its own: what hangs, crashes, forks or takes too much memory is told as that, and the next check goes on.
+    """
+    from . import auditing
+
+    subject = auditing.Asked(adapter, command, peer, tuple(check or ()), seed, quick, timeout, memory, tuple(environment or ()))
+    if peers:
+        return auditing.list_peers(as_json=json)
+    if listed:
+        return auditing.list_checks(subject, as_json=json)
+    if export is not None:
+        return auditing.export(subject, export)
+    if reproduce is not None:
+        return auditing.reproduce(subject, reproduce, language.value)
+    found = auditing.performed(subject, expected) if result is None else auditing.saved(result, subject, expected)
+    return auditing.report(found, junit=junit, badge=badge, detail=-1 if quiet else verbose, as_json=json)
+
+
 _command()(report)
 
 
 @_command()
-def examples(
-    folder: Annotated[Path | None, typer.Argument(metavar="[DIR]", show_default=False, help="Copy them there.")] = None,
-    json: Json = False,
-) -> int:
+def examples(folder: Annotated[Path | None, typer.Argument(metavar="[DIR]", help="Copy them there.")] = None, json: Json = False) -> int:
     """List or copy the packaged examples.
 
     They are systems, experiments and claims; into a folder goes a small record of faulty data, too.

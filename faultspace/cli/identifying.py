@@ -1,15 +1,14 @@
 """Run `faultspace identify`, which reads a record, identifies it, writes the answer into a folder and prints it.
 
 run              the command's body
-Known            what the user knows of the record
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from rich.text import Text
 
@@ -30,47 +29,35 @@ from .failures import ANSWERED
 from .reading_files import prepare_folder
 
 
-@dataclass(frozen=True)
-class Known:
-    """What the user knows of the record; None stands for what is to be found."""
-
-    order: int | None
-    block_rows: int | None
-    faults: int | None
-    healthy_until: int | None
-    healthy: str | None
-    noise_level: Sequence[float] | None
-    operating_point: str | None
-    dt: float | None
-    gaps: bool = False
-
-
 def run(
     files: Sequence[str],
-    known: Known,
+    known: Mapping[str, Any],
     *,
+    healthy: str | None,
+    gaps: bool,
     inputs: Sequence[str],
     outputs: Sequence[str],
     out: Path | None,
     as_json: bool,
     scheduler: str | None = None,
 ) -> int:
-    """Identify and write the files of `report.NAMES` into `out`; the exit code is 0 whenever there is an answer, "undecided" included.
+    """Identify by what is `known`, the arguments of the library, or by a file `healthy` in the place of so many samples, and write the
+    files of `report.NAMES` into `out`; the exit code is 0 whenever there is an answer, "undecided" included.
 
-    Several files are experiments of one plant, and with `known.gaps` so are the parts of a file between missing samples. The workers of
+    Several files are experiments of one plant, and with `gaps` so are the parts of a file between missing samples. The workers of
     the Dask `scheduler` take the windows of long records in sections; the answer is the same.
 
     A folder with a file of these names that no earlier run wrote is refused before anything is read. Where there is no answer, folders that
     were made for it go again.
     """
-    if known.healthy is not None and known.healthy_until is not None:
+    if healthy is not None and known["healthy"] is not None:
         raise InvalidInput("--healthy: got --healthy-until as well, expected one of them: a file without fault, or the number of samples")
     if not (inputs and outputs):
         read_record(files[0], inputs=inputs, outputs=outputs)  # refuses, and says what there is
     if out is None:
         raise InvalidInput("--out: got none, expected a folder for the answer: try --out answer")
-    worded = as_options if known.healthy is None else of_file
-    read = [*files, *([known.healthy] if known.healthy else [])]
+    worded = as_options if healthy is None else of_file
+    read = [*files, *([healthy] if healthy else [])]
     data = _named(files)
     if any(Path(path).is_dir() and _same(out, path) for path in read):
         raise InvalidInput(f"{quote_path(data)}: is a folder of measurements, expected another --out: try --out answer")
@@ -82,22 +69,11 @@ def run(
         prepare_folder(out)
         with shared(scheduler) as cluster, working(f"reading {quote_path(data)}") as telling:
             tell = evenly(telling)
-            records = [one for path in files for one in _records(path, known.gaps, inputs, outputs, tell)]
-            healthy: int | Record | None = known.healthy_until
-            if known.healthy is not None:
-                healthy = read_record(known.healthy, inputs=inputs, outputs=outputs, on_progress=tell)
+            records = [one for path in files for one in _records(path, gaps, inputs, outputs, tell)]
+            if healthy is not None:
+                known = {**known, "healthy": read_record(healthy, inputs=inputs, outputs=outputs, on_progress=tell)}
             with naming(worded), in_file(data):
-                answer = identify(
-                    records if len(records) > 1 else records[0],
-                    order=known.order,
-                    block_rows=known.block_rows,
-                    n_v=known.faults,
-                    healthy=healthy,
-                    noise_level=_one_or_each(known.noise_level),
-                    operating_point=known.operating_point,
-                    dt=known.dt,
-                    on_progress=tell,
-                )
+                answer = identify(records if len(records) > 1 else records[0], **known, on_progress=tell)
             if cluster is not None and cluster.lost:
                 say(f"{cluster.lost}; what was left was done here, and the answer is the same")
             tell("writing the answer", 0, 0)
@@ -130,11 +106,6 @@ def _records(path: str, gaps: bool, inputs: Sequence[str], outputs: Sequence[str
 def _named(files: Sequence[str]) -> str:
     """Return what the answer is about: the file, or the first of several with the number of the others."""
     return files[0] if len(files) == 1 else f"{files[0]} and {counted(len(files) - 1, 'file')} more"
-
-
-def _one_or_each(levels: Sequence[float] | None) -> float | Sequence[float] | None:
-    """Return the level that stands for all outputs, or those of each; None where there is none."""
-    return levels[0] if levels and len(levels) == 1 else levels or None
 
 
 def _missing(folder: Path) -> list[Path]:

@@ -1,11 +1,11 @@
 """Say how options are read and shown: the parts that the commands of `command_line` are declared with.
 
-Effort, Expected     the words that an option can be
+Effort, Expected, Language   the words that an option can be
 Plain                a command whose help shows its arguments as they are typed
 number               the parser of a number from a least one on, up to a largest one
 jobs_number          the parser of a number of processes
 in_our_words         a complaint about options as all complaints about input are
-Json, Verbose, Floats, OneSystem   options and an argument that several commands have
+Json, Verbose, ..     options and an argument that several commands have
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import re
 from collections.abc import Callable
 from enum import StrEnum
 from math import inf
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
@@ -34,6 +35,15 @@ class Expected(StrEnum):
 
     equivalent = "equivalent"
     different = "different"
+
+
+class Language(StrEnum):
+    """A script that shows a failure is in one of these."""
+
+    python = "python"
+    octave = "octave"
+    matlab = "matlab"
+    julia = "julia"
 
 
 class Plain(TyperCommand):
@@ -94,4 +104,8 @@ def in_our_words(message: str) -> str:
 Json = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else on standard output.")]
 Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="Print the long tables, too.")]
 Floats = Annotated[bool, typer.Option("--floats-exactly", help="Take floats as the dyadic rationals that they are.")]
-OneSystem = Annotated[str, typer.Argument(metavar="SYSTEM", show_default=False, help="A system file, - or example:NAME.")]
+OneSystem = Annotated[str, typer.Argument(metavar="SYSTEM", help="A system file, - or example:NAME.")]
+Scheduler = Annotated[str | None, typer.Option(metavar="ADDRESS", help="Work on the Dask cluster with this scheduler instead.")]
+Jobs = Annotated[int | None, typer.Option(metavar="K", parser=jobs_number, help="Processes at a time.", show_default="all cores")]
+BoxJobs = Annotated[int, typer.Option(metavar="K", parser=jobs_number, help="Processes at a time, for large boxes.")]
+Certificates = Annotated[Path | None, typer.Option(metavar="DIR", help="Write the certificates there.")]

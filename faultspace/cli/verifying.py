@@ -22,9 +22,7 @@ from ..proofs.verification import verify
 from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, NOT_AS_EXPECTED
 from .reading_files import prepare_folder
-from .verdict_page import print_page
-from .verdict_summary import print_differences, print_lines, print_machine, print_summary
-from .verdict_tables import hypotheses_table, verdict_table
+from .verdict_tables import hypotheses_table, print_differences, print_lines, print_machine, print_page, print_summary, verdict_table
 
 WIDE = 100  # below it the columns of the long tables hold a word a line
 

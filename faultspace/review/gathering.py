@@ -14,13 +14,11 @@ from ..base.progress import Progress, silent
 from ..numeric.study.studies import STUDIES
 from ..proofs.checking import check
 from ..proofs.trust.checker import Malformed, Rejected
-from .computed.board import board
 from .computed.bound import RECORDS, bound
 from .computed.controls import FALSE, controls
 from .computed.convergence import LENGTHS, SEEDS, convergence
 from .computed.counterexamples import counterexamples
-from .computed.example import RUNS, example
-from .computed.study import SYSTEMS, study
+from .computed.study import RUNS, SYSTEMS, board, example, study
 from .computed.systems import systems
 from .records import Records, Run
 

@@ -22,6 +22,8 @@ from __future__ import annotations
 import io
 import mmap
 import os
+import re
+import shlex
 import shutil
 import tempfile
 import zipfile
@@ -42,13 +44,12 @@ from ...base.others_text import printable
 from ...base.progress import Progress, silent
 from ...base.regular_files import open_regular
 from ...base.sheets import counted
-from .choosing import nothing_chosen
-from .clocks import Clock, first_clock, whole_clock
+from .clocks import Clock, first_clock, time_name, whole_clock
 from .damage import from_library, readable, unpacks_to
 from .hdf5 import hdf5_arrays
 from .parts import ParquetParts, parts_of
 from .records import Record, RecordWriter
-from .selectors import labels_of, missing, named_once, picked, split_names
+from .selectors import MOST_NAMED, Missing, labels_of, missing, named_once, picked, quoted, split_names
 from .text_tables import TextTable
 from .validation import PIECE, first_not_finite
 
@@ -78,16 +79,32 @@ def read_record(
 ) -> Record:
     """Return the record in a file: some of its named columns as inputs, others as outputs, ready for `identify`.
 
-    `path` ends in .csv, .tsv, .txt, .dat, .parquet, .pq, .npz, .npy or .mat, or is a folder of Parquet files with the same columns, which
-    are one record in parts, in the order of the numbers in their names; `inputs` and `outputs` name n_u and p channels, by the
-    names of columns or, for matrices, as NAME[:,j]; a text may hold several names, separated by commas, and a name with a comma stands in
-    double quotes. Rows are samples, in the order of time and in the file's units, and every number must be finite. A column of times or
-    dates that is none of them gives the `clock` of the record: its sample time, and what is odd about it. `on_progress(stage, done, total)`
-    hears how much of how much has been read. The Record has `len`, the number of samples, `inputs` and `outputs`; it is read in pieces and
-    need not fit into memory (a MAT file must).
+    Rows are samples, in the order of time and in the file's units, and every number must be finite.
 
-    Raises InvalidInput for a file that cannot be read, a channel that is not there or is named twice, and for numbers that are not finite.
+    Parameters
+    ----------
+    path : str or path
+        Ends in .csv, .tsv, .txt, .dat, .parquet, .pq, .npz, .npy or .mat, or is a folder of Parquet files with the same columns, one record
+        in parts, in the order of the numbers in their names.
+    inputs, outputs : str or list of str
+        n_u and p channels, by the names of columns or, for matrices, as NAME[:,j]; a text may hold several names, separated by commas, and
+        a name with a comma stands in double quotes.
+    on_progress : callable, optional
+        Hears (stage, done, total).
 
+    Returns
+    -------
+    Record
+        Its `len` is the number of samples; `clock` is from a column of times or dates that is no channel. It is read in pieces and need not
+        fit into memory (a MAT file must).
+
+    Raises
+    ------
+    InvalidInput
+        A file that cannot be read, a channel that is not there or is named twice, numbers that are not finite.
+
+    Examples
+    --------
     >>> import faultspace as fs, pathlib, tempfile
     >>> path = pathlib.Path(tempfile.mkdtemp(), "small.csv")
     >>> _ = path.write_text("valve,level\\n0.0,1.0\\n1.0,0.5\\n")
@@ -112,13 +129,26 @@ def read_stretches(
 ) -> list[Record]:
     """Return the whole stretches of a file in which samples are missing, as a list of Records.
 
-    They lie between rows with a cell that is no finite number, and between times at which rows are missing.
+    They lie between rows with a cell that is no finite number, and between times at which rows are missing. They are experiments of one
+    plant, and go into one answer as such: `identify(parts)`, or `arx_reduction_experiments(parts)` for the model alone.
 
-    The arguments are those of `read_record`, in the same units; the result is a list of Records, in the order of time, each with at least
-    one sample, with the sample time where a column tells it. They are experiments of one plant, and go into one answer as such:
-    `identify(parts)`, or `arx_reduction_experiments(parts)` for the model alone. Raises InvalidInput as `read_record` does, but for numbers
-    that are not finite, and where no row is whole.
+    Parameters
+    ----------
+    path, inputs, outputs, on_progress
+        As of `read_record`.
 
+    Returns
+    -------
+    list of Record
+        In the order of time, each with at least one sample, in the file's units, with the sample time where a column tells it.
+
+    Raises
+    ------
+    InvalidInput
+        As `read_record`, but for numbers that are not finite; and where no row is whole.
+
+    Examples
+    --------
     >>> import faultspace as fs, pathlib, tempfile
     >>> from faultspace.numeric import read_stretches
     >>> path = pathlib.Path(tempfile.mkdtemp(), "small.csv")
@@ -377,3 +407,42 @@ def _some(samples: int) -> None:
 READERS: dict[str, Callable[[Path, Sequence[str], OnRead, ExitStack], _Opened]] = {
     "text": _text, "Parquet": _parquet, "NPZ": _npz, "NPY": _npy, "MAT": _mat,
 }  # fmt: skip
+
+
+NOBODYS = "\0"  # no file has a channel of this name
+ACTING = re.compile(r"(x?mv|u|in|inputs?|cmd|command|valve|heater|pump|voltage)[ _.\-\[(]*\d*.?", re.IGNORECASE)
+"""Names that inputs often have: a guess, which is told as an example only."""
+
+
+def nothing_chosen(path: str, inputs: Sequence[str], outputs: Sequence[str], read: Callable[[Sequence[str]], object]) -> InvalidInput:
+    """Return the refusal; `read` opens the file for channels of these names, and raises Missing for one that it has not."""
+    there: tuple[str, ...] = ()
+    columns = True
+    try:
+        read([NOBODYS])
+    except Missing as found:
+        there, columns = found.there, found.columns
+    lacking = " and ".join(f"no {option}" for option, names in (("inputs", inputs), ("outputs", outputs)) if not names)
+    clock = time_name(there)
+    free = [name for name in there if name not in {*inputs, *outputs, clock}]
+    listed = ", ".join([*map(quoted, free[:MOST_NAMED]), *([f"... ({len(free)} in all)"] if len(free) > MOST_NAMED else [])])
+    told = f"left are {listed}" if inputs or outputs else f"the file has {listed}"
+    time = f", and times in {clock}" if clock else ""
+    if len(free) == 1 and not columns:
+        told, free = f"there is one matrix, {free[0]}, with columns {free[0]}[:,j] counted from 0", [f"{free[0]}[:,0]", f"{free[0]}[:,1:]"]
+    if len(free) + len(inputs) + len(outputs) < 2 or not free:
+        what = f"{told}{time}" if free else f"no channel is left of {counted(len(there), 'channel')}"
+        return InvalidInput(f"got {lacking}, and {what}; a model needs an input, which acts on the plant, and an output, which is measured")
+    u, y = _example(free, list(inputs), list(outputs))
+    command = f"faultspace identify {shlex.quote(path)} --inputs {shlex.quote(u)} --outputs {shlex.quote(y)} --out answer"
+    return InvalidInput(f"got {lacking}, expected what acts on the plant and what is measured; {told}{time}: choose, as in {command}")
+
+
+def _example(free: list[str], inputs: list[str], outputs: list[str]) -> tuple[str, str]:
+    """Return a choice out of the free channels: those named, the rest for the others, by their names where neither is named."""
+    if not inputs and not outputs:
+        inputs = [name for name in free if ACTING.fullmatch(name.strip())]
+        inputs = inputs if 0 < len(inputs) < len(free) else free[:1]
+    outputs = outputs or [name for name in free if name not in inputs]
+    inputs = inputs or [name for name in free if name not in outputs]
+    return ",".join(map(quoted, inputs[:MOST_NAMED])), ",".join(map(quoted, outputs[:MOST_NAMED]))

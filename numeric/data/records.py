@@ -33,7 +33,7 @@ from ...base.arrays import Array
 from ...base.errors import InvalidInput
 from ...base.others_text import printable
 from ...base.progress import Progress
-from ...base.sheets import Shown, counted
+from ...base.sheets import Shown, counted, several
 from .clocks import Clock
 from .plain import plain
 from .validation import PIECE
@@ -152,7 +152,7 @@ class Record(Shown):
     def title(self) -> str:
         """Return what the record is, on one short line."""
         of = f" of {len(self.lengths)} experiments" if self.lengths else ""
-        return f"{counted(len(self), 'sample')}{of}, inputs {_names(self.inputs)}, outputs {_names(self.outputs)}"
+        return f"{counted(len(self), 'sample')}{of}, inputs {several(self.inputs, MOST_NAMED)}, outputs {several(self.outputs, MOST_NAMED)}"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
         """Yield one line a channel, inputs before outputs."""
@@ -272,11 +272,6 @@ class Record(Shown):
     def _split(self, rows: Array) -> tuple[Array, Array]:
         rows = rows - self.offset
         return rows[:, self.n_u :], rows[:, : self.n_u]
-
-
-def _names(channels: Sequence[str]) -> str:
-    """Return the names on one line, the first ones of many."""
-    return ", ".join(channels[:MOST_NAMED]) + (f", ... ({len(channels)} in all)" if len(channels) > MOST_NAMED else "")
 
 
 class Moments:

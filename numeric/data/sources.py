@@ -37,17 +37,33 @@ def record_from(
     outputs: str | Sequence[str] | None = None,
     on_progress: Progress | None = None,
 ) -> Record:
-    """Return the Record of whatever holds one: arrays, data frames, a file, pieces or a Record.
+    """Return the Record of whatever holds one: arrays, data frames, a file, pieces or a Record. It converts only and has no source.
 
-    y (N, p) and u (N, n_u) are arrays or data frames, whose columns give the names, one row a sample, in any units. An index of dates, of
-    durations, or that is named as a time, and a column of times in a frame of both, give the `clock` of the record. Without u, y holds
-    both: a Record, the path of a file (`inputs` and `outputs` then choose its channels), a frame (likewise), or pieces (y, u) in the order
-    of time, which are read once and have any number of samples.
+    Parameters
+    ----------
+    y, u : array_like or data frame, (N, p) and (N, n_u)
+        Columns of a frame give the names, one row a sample, in any units. An index of dates, of durations, or that is named as a time, and
+        a column of times in a frame of both, give the `clock`. Without `u`, `y` holds both: a Record, the path of a file, a frame, or
+        pieces (y, u) in the order of time, which are read once.
+    inputs, outputs : str or list of str, optional
+        Channels of a file or a frame; otherwise names, by default u1, u2, .. and y1, y2, ..; a text of names has commas between them.
+    on_progress : callable, optional
+        Hears (stage, done, total).
 
-    `inputs` and `outputs` otherwise name the channels, u1, u2, ... and y1, y2, ... by default; each is a list of names, or a text of
-    names that are separated by commas. Every name stands for one channel. Raises InvalidData for what holds no
-    record, and InvalidInput for a file that cannot be read. It converts only, so that it has no source.
+    Returns
+    -------
+    Record
+        With `len`, the number of samples, `inputs` and `outputs`.
 
+    Raises
+    ------
+    InvalidData
+        What holds no record.
+    InvalidInput
+        A file that cannot be read.
+
+    Examples
+    --------
     >>> from faultspace.numeric import record_from
     >>> record = record_from([[1.0], [2.0]], [[0.0], [1.0]], outputs=["level"])
     >>> len(record), record.inputs, record.outputs

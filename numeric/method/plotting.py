@@ -25,7 +25,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from importlib import import_module
 from statistics import NormalDist
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -45,6 +45,7 @@ DECIBEL = 10.0 / np.log(10.0)  # of the natural logarithm of a power
 LEAST_CHANCE = 1e-12  # that is drawn: less says no more
 MOST_CHANNELS = 8
 SEEN = 0.2  # of the picture: smaller regions are drawn larger by a power of ten that does not go beyond it
+STYLES = {"consistent": (GREEN, ""), "excluded": (GREY, "//"), "undecided": (ORANGE, "..")}  # of a cause
 LOWEST = 1e-18  # relative: smaller singular values are drawn there
 
 
@@ -81,61 +82,9 @@ def plot_conditions(values: ArrayLike, equations: int, *, others: str, ax: Any =
     return finished(ax, legend=True)
 
 
-class Level(Protocol):
-    """What the kernel-row test saw on so many mixed outputs: levels in nats over the mixtures tried."""
-
-    @property
-    def outputs(self) -> int:
-        """Return how many outputs were mixed."""
-
-    @property
-    def least(self) -> float:
-        """Return the least level."""
-
-    @property
-    def largest(self) -> float:
-        """Return the largest level."""
-
-    @property
-    def middle(self) -> float:
-        """Return the level half way between them."""
-
-
-class WindowRanks(Protocol):
-    """A count of faults by windows, as `FaultDimension` is: n_v, regime and what belongs to each window."""
-
-    @property
-    def n_v(self) -> int | None:
-        """Return the number of faults, None where it is undecided."""
-
-    @property
-    def regime(self) -> str:
-        """Return "rounding" or "noise"."""
-
-    @property
-    def windows(self) -> tuple[int, ...]:
-        """Return the windows looked at, 1 and on."""
-
-    @property
-    def ranks(self) -> tuple[int, ...]:
-        """Return the rank of each window."""
-
-    @property
-    def gaps(self) -> tuple[int, ...]:
-        """Return the differences of neighbouring ranks."""
-
-    @property
-    def thresholds(self) -> tuple[float, ...]:
-        """Return the threshold of each window."""
-
-    @property
-    def singular_values(self) -> tuple[Array, ...]:
-        """Return the singular values of each window."""
-
-
-def plot_window_ranks(dimension: WindowRanks, *, window: int | None = None, ax: Any = None) -> Any:
-    """Draw the singular values of R_s (circles) and R_(s+1) (squares) with their thresholds; those above are filled, the legend has the
-    ranks. Under noise these are no ranks, and the legend does not call them so.
+def plot_window_ranks(dimension: Any, *, window: int | None = None, ax: Any = None) -> Any:
+    """Draw, of a FaultDimension, the singular values of R_s (circles) and R_(s+1) (squares) with their thresholds; those above are filled,
+    the legend has the ranks. Under noise these are no ranks, and the legend does not call them so.
 
     `window` is s, by default the longest with a successor. Raises InvalidData for an s that was not looked at.
     """
@@ -276,7 +225,7 @@ def plot_measured_and_simulated(
     return finished(ax, legend=True, outside=True)
 
 
-def plot_fault_signal(v: ArrayLike, *, trusted: tuple[int, int] | None = None, names: Sequence[str] | None = None, ax: Any = None) -> Any:
+def plot_fault_signal(v: ArrayLike, *, trusted: tuple[int, int] | None = None, ax: Any = None) -> Any:
     """Draw v (N, n_v), signal above signal; outside v[first:last] = `trusted` the background is shaded. At most 8 signals are drawn."""
     values = signal(v, "v")
     ax = _axes(ax)
@@ -285,7 +234,7 @@ def plot_fault_signal(v: ArrayLike, *, trusted: tuple[int, int] | None = None, n
     kept = values[first:last] if first < last else values
     middle, size = _centres(kept)
     own = ["v1 (in the scale of F and G)"] if m == 1 else [f"v{j + 1}" for j in range(m)]
-    levels = _stacked(ax, names or own, "signals", size)
+    levels = _stacked(ax, own, "signals", size)
     for j, level in enumerate(levels):
         # What is not determined may be large: the scale is that of the rest.
         drawn = np.clip((values[:, j] - middle[j]) / size[j], -1.2, 1.2)
@@ -301,20 +250,28 @@ def plot_fault_signal(v: ArrayLike, *, trusted: tuple[int, int] | None = None, n
 def plot_stored_signal(v: SampleStore, trusted: tuple[int, int], *, first: int = 0, last: int | None = None, ax: Any = None) -> Any:
     """Draw samples first .. last - 1 (by default all) of v (N, n_v) as `plot_fault_signal` does; a long one is drawn by its extremes."""
     ax = _axes(ax)
-    end = len(v) if last is None else last
-    step = 1 if end - first <= MOST_DRAWN else -(-2 * (end - first) // MOST_DRAWN)
-    if step == 1:
-        rows, samples = v.read(first, end), 1.0
-    else:
-        parts = (v.read(start, min(start + step, end)) for start in range(first, end, step))
-        rows, samples = np.array([ends for part in parts for ends in (part.min(axis=0), part.max(axis=0))]), step / 2
+    rows, samples = _drawn_rows(v, first, len(v) if last is None else last)
     a, b = (int(np.clip(round((edge - first) / samples), 0, len(rows))) for edge in trusted)
     plot_fault_signal(rows, trusted=(a, b), ax=ax)
-    ticker: Any = import_module("matplotlib.ticker")
-    reach = first + samples * (len(rows) - 1)
-    ticks = [place for place in ticker.MaxNLocator(TICKS, integer=True).tick_values(first, reach) if first <= place <= reach]
-    ax.set_xticks([(place - first) / samples for place in ticks], [f"{place:,.0f}" for place in ticks])
+    _sample_ticks(ax, first, first + samples * (len(rows) - 1), samples)
     return ax
+
+
+def _drawn_rows(store: SampleStore, first: int, last: int) -> tuple[Array, float]:
+    """Return the rows of a store that are drawn of samples first .. last - 1, of a long one the extremes of equal parts, and the samples
+    that a row stands for."""
+    step = 1 if last - first <= MOST_DRAWN else -(-2 * (last - first) // MOST_DRAWN)
+    if step == 1:
+        return store.read(first, last), 1.0
+    parts = (store.read(start, min(start + step, last)) for start in range(first, last, step))
+    return np.array([ends for part in parts for ends in (part.min(axis=0), part.max(axis=0))]), step / 2
+
+
+def _sample_ticks(ax: Any, first: float, last: float, samples: float) -> None:
+    """Name samples first .. last where each row that was drawn stands for so many."""
+    ticker: Any = import_module("matplotlib.ticker")
+    ticks = [place for place in ticker.MaxNLocator(TICKS, integer=True).tick_values(first, last) if first <= place <= last]
+    ax.set_xticks([(place - first) / samples for place in ticks], [f"{place:,.0f}" for place in ticks])
 
 
 def plot_residual(r: ArrayLike, *, names: Sequence[str] | None = None, ax: Any = None) -> Any:
@@ -340,11 +297,7 @@ def plot_onsets(
 ) -> Any:
     """Draw all samples of a residual (N, p) in a store, the onsets (sample, (first, last)) as lines within their intervals, and the end of
     the samples stated to be healthy; a long record is drawn by the extremes of equal parts."""
-    N = len(store)
-    step = 1 if N <= MOST_DRAWN else -(-2 * N // MOST_DRAWN)
-    parts = (store.read(start, min(start + step, N)) for start in range(0, N, step)) if step > 1 else ()
-    rows = np.array([ends for part in parts for ends in (part.min(axis=0), part.max(axis=0))]) if step > 1 else store.read(0, N)
-    samples = 1.0 if step == 1 else step / 2
+    rows, samples = _drawn_rows(store, 0, len(store))
     ax = plot_residual(rows, names=names, ax=ax)
     for number, (sample, (first, last)) in enumerate(onsets):
         label = "onset, in its interval" if number == 0 else None
@@ -352,9 +305,7 @@ def plot_onsets(
         ax.axvline(sample / samples, color=ORANGE, linewidth=1.4, linestyle="--", label=label)
     if healthy is not None:
         ax.axvline(healthy / samples, color=GREEN, linewidth=1.4, linestyle=":", label="stated to be healthy until here")
-    ticker: Any = import_module("matplotlib.ticker")
-    ticks = [place for place in ticker.MaxNLocator(TICKS, integer=True).tick_values(0, N - 1) if 0 <= place <= N - 1]
-    ax.set_xticks([place / samples for place in ticks], [f"{place:,.0f}" for place in ticks])
+    _sample_ticks(ax, 0, len(store) - 1, samples)
     ax.set_title("Residual of the whole record" if onsets else "Residual of the whole record: no onset")
     return finished(ax, legend=bool(onsets) or healthy is not None, outside=True)
 
@@ -365,9 +316,8 @@ def plot_angles(rows: Sequence[tuple[str, float, float | None, str]], *, ax: Any
     ax = _axes(ax)
     least = min((np.degrees(size) for _, angle, bound, _ in rows for size in (angle, bound) if size), default=1.0)
     left = max(least, 1e-9) / 3
-    styles = {"consistent": (GREEN, ""), "excluded": (GREY, "//"), "undecided": (ORANGE, "..")}
     for place, (_, angle, bound, answer) in enumerate(rows):
-        colour, hatch = styles[answer]
+        colour, hatch = STYLES[answer]
         ax.barh(place, max(np.degrees(angle) - left, 0.0), left=left, height=0.6, color=colour, alpha=0.55, hatch=hatch, edgecolor=colour)
         reach = max(angle, bound or 0.0, np.radians(left))
         if bound is not None:
@@ -387,10 +337,9 @@ def plot_chances(rows: Sequence[tuple[str, float, str]], limits: tuple[float, fl
     off is by chance, were it the cause. Below the first of the `limits` a cause is excluded, from the second on it is consistent. Chances
     below LEAST_CHANCE are drawn as that."""
     ax = _axes(ax)
-    styles = {"consistent": (GREEN, ""), "excluded": (GREY, "//"), "undecided": (ORANGE, "..")}
     sizes = [-np.log10(max(chance, LEAST_CHANCE)) for _, chance, _ in rows]
     for place, (size, (_, _, answer)) in enumerate(zip(sizes, rows, strict=True)):
-        colour, hatch = styles[answer]
+        colour, hatch = STYLES[answer]
         ax.barh(place, size, height=0.6, color=colour, alpha=0.55, hatch=hatch, edgecolor=colour)
         ax.annotate(answer, (size, place), xytext=(6, 0), textcoords="offset points", va="center", fontsize=9)
     excluded, consistent = (-np.log10(limit) for limit in limits)
@@ -406,8 +355,9 @@ def plot_chances(rows: Sequence[tuple[str, float, str]], limits: tuple[float, fl
     return finished(ax, legend=True, outside=True)
 
 
-def plot_levels(levels: Sequence[Level], n_v: int | None, *, ax: Any = None) -> Any:
-    """Draw the levels of the kernel-row test by number of mixed outputs, from least to largest over the mixtures tried."""
+def plot_levels(levels: Sequence[Any], n_v: int | None, *, ax: Any = None) -> Any:
+    """Draw the levels of the kernel-row test, a LawLevel each, by number of mixed outputs, from least to largest over the mixtures
+    tried."""
     ax = _axes(ax)
     by_count = sorted(levels, key=lambda level: level.outputs)
     # Levels are natural logarithms of powers.

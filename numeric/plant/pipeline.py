@@ -80,29 +80,47 @@ def identify(
     `found.fault_space`, whose angle says how sure it is, and last at `found.pair` and `found.signal`, which are one choice out of that
     space. `print(found.summary())` tells all of it in this order.
 
-    Source: [W89] for the model, [W91] for the laws, [G25] for the fault space; [V93] for the model of a record without noise.
+    Several experiments of one plant have lengths, initial states and operating points of their own; model, number of faults and fault space
+    are of all, and `found.experiments` has onset, changes, residual and signal of each. Experiments too short for the windows of the others
+    are left out, and a note says so. Source: [W89] for the model, [W91] for the laws, [G25] for the fault space; [V93] for the model of a
+    record without noise.
 
-    y (N, p) and u (N, n_u) are arrays or data frames, one row a sample, in any units. Without u, y holds both: a record, the path of a
-    data file or a frame, whose channels `inputs` and `outputs` choose, or an iterator of consecutive pieces (y, u), which is read once.
-    All of them become one record, and the same numbers give the same answer.
+    Parameters
+    ----------
+    y, u : array_like or data frame, (N, p) and (N, n_u)
+        One row a sample, in any units. Without `u`, `y` holds both: a record, the path of a data file, a frame, or an iterator of
+        consecutive pieces (y, u), which is read once. Experiments are a list of records (as of `read_stretches`), paths or frames, or lists
+        y and u of as many arrays each; a list of pairs (y, u) are pieces of one.
+    order, block_rows, n_v : int, optional
+        Number n of states; samples of a window (lags of the ARX model, block rows of PI-MOESP); number of faults. Else found from the data.
+    healthy : int, or what holds a record, optional
+        Number of first samples without fault; or another record of the same channels that has none, which then comes first in the record
+        that the answer is about.
+    noise_level : float or (p,), optional
+        Standard deviation of the sensors' noise in units of y, by which faults are told from noise where no samples are healthy.
+    operating_point : "means" or "zero", optional
+        About what the plant is linear: by default the means of the healthy samples, or else those of each experiment unless zero may be it.
+    inputs, outputs : str or list of str, optional
+        Channels of a file or frame.
+    dt : float, optional
+        Seconds from sample to sample, which a time column may tell instead; exports have it, and the summary tells frequencies and damping.
+    on_progress : callable, optional
+        Hears (stage, done, total).
 
-    Several experiments of one plant are a list of records (as `read_stretches` gives them, the parts between missing samples), paths or
-    frames, or lists y and u of as many arrays each; a list of pairs (y, u) are pieces of one experiment. Each has a length, an initial
-    state and an operating point of its own; model, number of faults and fault space are of all, and `found.experiments` has onset, changes,
-    residual and signal of each. Experiments too short for the windows of the others are left out, and a note says so.
+    Returns
+    -------
+    Identification
+        What cannot be told is one of its `notes`.
 
-    `order` is the number n of states, `block_rows` the samples of a window (the lags of the ARX model, the block rows of PI-MOESP), `n_v`
-    the number of faults, each found from the data where it is not stated; `healthy` says how many samples, from the first on, are without
-    fault, or is another record of the same channels that has none (a Record, a path, a frame, a tuple (y, u), an iterator of pieces),
-    which then comes first in the record that the answer is about; `noise_level`, one number or one an output, is the standard deviation
-    of the sensors' noise in units of y, by which faults are told from noise where no samples are healthy; `operating_point`, "means" or
-    "zero", says about what the plant is linear: the means of the healthy samples unless stated, and without such samples those of each
-    experiment unless zero may be it, which `found.operating_point` tells. `dt` is the time from sample to sample in seconds, which a
-    time column of the data may tell instead; the exports have it, and with it the summary tells frequencies and damping.
-    `on_progress(stage, done, total)` hears how far it has come.
-    Raises InvalidInput for a file that cannot be read, and InvalidData for data from which no model can be had; what cannot be told after
-    that is a note of the Identification.
+    Raises
+    ------
+    InvalidInput
+        A file that cannot be read.
+    InvalidData
+        Data from which no model can be had.
 
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import identify
     >>> from faultspace.numeric.method.model.models import StateSpaceModel

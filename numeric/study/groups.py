@@ -9,13 +9,13 @@ median_interval      the distribution-free 95 % confidence interval of a median
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 import scipy.special
 
-from .study_cases import PAPER, Case, Failed, Numbered
+from .study_cases import PAPER, Case, Failed
 
 QUANTILES = (0.1, 0.25, 0.5, 0.75, 0.9)  # that a table shows
 CONFIDENCE = 0.95  # of its intervals
@@ -23,17 +23,15 @@ CONFIDENCE = 0.95  # of its intervals
 
 @dataclass(frozen=True)
 class Plan:
-    """The plan says what a study does with its systems: `cases` makes Cases of (index, seed) pairs and a number of samples, the same for a
-    system whatever others it comes with, best `stack` of them at a time. `metric` names the field of `Errors` that is its error, and
-    `worth` is the number of systems that are worth the start of a process."""
+    """The plan says what a study does with its systems: `case` makes a Case of an index, a seed and a number of samples. `metric` names the
+    field of `Errors` that is its error, and `worth` is the number of systems that are worth the start of a process."""
 
     name: str
     title: str
     metric: str
     metric_text: str
     estimators: tuple[str, ...]
-    cases: Callable[[Sequence[Numbered], int], list[Case]]
-    stack: int
+    case: Callable[[int, np.random.SeedSequence, int], Case]
     worth: int
 
 

@@ -3,23 +3,17 @@
     example_v          one run of the example: an ExampleRun
     ExampleRun         ranks by theory, from the true system's residual and from the identified system's; faults counted; angles
     published_ranks    ranks of R_5 and R_6 of the identified branch alone, at the published threshold
-    tally              how often which of them come out over many seeds
-    lines              the run in words: each rank beside the theoretical one, and where they differ
     behaviour_ranks    rank [O_s T_s], s = 1 .. windows: what R_s has for exciting faults
-    recorded_errors    of the two fault spaces that the author's notebook keeps, to four digits: with the true and the identified system
     exact_fault_space  the solution space of problem (11) of known matrices, at s = n + 1
 
 n = 3, p = 2, one fault without feedthrough, F an eigenvector of A, so that (A, F) is not controllable: one zero, at infinity. As
 published [G25]: 1001 samples, PI-MOESP with s = 30, residuals from a random initial state; n_v = rank R_(s+1) - rank R_s at s = 20 from
 the true system, and at s = 5 with singular values counted above 1 from the identified one. That threshold is a choice by inspection: it
-gives the right difference even where the ranks are wrong (6 and 7 for 7 and 8), which this run tells by itself and counts over seeds.
-`python -m faultspace.numeric.study.paper_example` prints it.
+gives the right difference even where the ranks are wrong (6 and 7 for 7 and 8), which the report of a run tells and counts over seeds.
 """
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,9 +33,6 @@ TRUE_WINDOW, IDENTIFIED_WINDOW = 20, 5
 PUBLISHED_THRESHOLD = 1.0  # of the published example [G25]
 SHOWN_WINDOWS = 6
 SPACE_WINDOW = ORDER + 1
-# [Fhat; Ghat] in the author's notebook, as printed: with the true system, and with the identified one brought to the true state basis.
-RECORDED = ((0, 0, 0, -0.9440, -0.3300), (0.9378, 0.3278, 0.1146, 0, 0))
-RECORDED_IDENTIFIED = ((0, 0, 0, -0.9440, -0.3300), (0.9332, 0.3379, 0.1223, 0, 0))  # with an identified model
 EPS = float(np.finfo(float).eps)
 
 
@@ -68,17 +59,6 @@ class ExampleRun:
     angle_identified: float
     angle_published: float
     state_error: float
-
-    @property
-    def published_gap(self) -> int:
-        """Return the rank R_6 - rank R_5 of the identified branch at the published threshold."""
-        return self.threshold_identified[IDENTIFIED_WINDOW] - self.threshold_identified[IDENTIFIED_WINDOW - 1]
-
-    @property
-    def differs(self) -> tuple[int, ...]:
-        """Return the windows at which the published threshold's rank is not the theoretical one."""
-        pairs = zip(self.theory, self.threshold_identified, strict=True)
-        return tuple(s for s, (right, got) in enumerate(pairs, 1) if right != got)
 
 
 def system() -> tuple[StateSpaceModel, Array, Array]:
@@ -121,59 +101,6 @@ def published_ranks(seed: int, *, samples: int = SAMPLES) -> tuple[int, int]:
     r = _residuals(seed, samples)[1]
     first, second = (int(np.sum(_values(r, s) > PUBLISHED_THRESHOLD)) for s in (IDENTIFIED_WINDOW, IDENTIFIED_WINDOW + 1))
     return first, second
-
-
-def tally(runs: int = 50, *, samples: int = SAMPLES) -> Iterator[str]:
-    """Say in words how often which ranks come out over `runs` seeds."""
-    right = behaviour_ranks(*_fault_matrices(), IDENTIFIED_WINDOW + 1)[-2:]
-    counted = Counter(published_ranks(seed, samples=samples) for seed in range(runs))
-    yield f"ranks of R_{IDENTIFIED_WINDOW}, R_{IDENTIFIED_WINDOW + 1} at the threshold {PUBLISHED_THRESHOLD:g} over {runs} runs:"
-    for pair, count in counted.most_common():
-        yield f"    {pair[0]} and {pair[1]} in {count} runs" + ("" if pair == right else f"; {right[0]} and {right[1]} are true")
-
-
-def lines(run: ExampleRun) -> Iterator[str]:
-    """Yield the run in words, and say by itself where it is not what theory says."""
-    yield f"{'ranks of R_s for s =':46}" + " ".join(f"{s:3}" for s in range(1, SHOWN_WINDOWS + 1))
-    yield _row("theory, rank [O_s T_s]", run.theory)
-    yield _row("true system, default tolerance", run.default_true)
-    yield _row("identified system, default tolerance", run.default_identified)
-    yield _row(f"identified system, threshold {PUBLISHED_THRESHOLD:g} as published", run.threshold_identified)
-    yield f"true system: rank R_{TRUE_WINDOW + 1} - rank R_{TRUE_WINDOW} = {run.window_gap}, one fault; default ranks " + (
-        "equal theory at every window"
-        if run.default_true == run.theory
-        else "DIFFER from theory: " + _differences(run.theory, run.default_true)
-    )
-    s = IDENTIFIED_WINDOW
-    yield f"identified system, threshold {PUBLISHED_THRESHOLD:g}: rank R_{s + 1} - rank R_{s} = {run.published_gap}" + (
-        f", but the ranks DIFFER from theory: {_differences(run.theory, run.threshold_identified)}"
-        if run.differs
-        else "; ranks equal theory at every window"
-    )
-    if run.default_identified != run.theory:
-        full = run.default_identified[s] - run.default_identified[s - 1]
-        yield f"identified system, default tolerance: rank R_{s + 1} - rank R_{s} = {full}, because the model's error fills every direction"
-    for length, values in enumerate(run.singular_values, s):
-        right = run.theory[length - 1]
-        last, following = values[right - 1], values[right]
-        where = f"{PUBLISHED_THRESHOLD:g} {'lies' if following < PUBLISHED_THRESHOLD < last else 'does NOT lie'} between them"
-        yield f"R_{length}: singular value {right}, the last that theory keeps, is {last:.3g}, the next {following:.3g}; {where}"
-    for name, dimension in (("true", run.dimension_true), ("identified", run.dimension_identified)):
-        answer = "undecided" if dimension.n_v is None else str(dimension.n_v)
-        yield f"fault_dimension, {name} system: {answer} ({dimension.reason})"
-    yield f"fault space of dimension {run.fault_space_dimension}: two-sided error {100 * run.angle_true:.2g} % with the true system, " + (
-        f"{100 * run.angle_identified:.2g} % with the identified one ({100 * run.angle_published:.2g} % with the threshold's rank), "
-        f"whose A is wrong by {100 * run.state_error:.2g} %"
-    )
-    true, identified = recorded_errors()
-    yield f"the author's recorded fault spaces, printed to four digits: {100 * true:.2g} % and {100 * identified:.2g} %"
-
-
-def recorded_errors() -> tuple[float, float]:
-    """Return two-sided errors, as fractions, of the author's recorded fault spaces: from the true system and from his identified one."""
-    Z = exact_fault_space(*_fault_matrices())
-    true, identified = (two_sided_error(Z, np.array(columns).T) for columns in (RECORDED, RECORDED_IDENTIFIED))
-    return true, identified
 
 
 def behaviour_ranks(A: Array, F: Array, C: Array, G: Array, windows: int) -> tuple[int, ...]:
@@ -240,15 +167,3 @@ def _default_rank(r: Array, s: int) -> int:
 
 def _listed(r: Array, s: int) -> tuple[float, ...]:
     return tuple(float(value) for value in _values(r, s))
-
-
-def _row(label: str, ranks: tuple[int, ...]) -> str:
-    return f"{label:46}" + " ".join(f"{rank:3}" for rank in ranks)
-
-
-def _differences(right: tuple[int, ...], got: tuple[int, ...]) -> str:
-    return ", ".join(f"rank R_{s} is {b} where {a} is true" for s, (a, b) in enumerate(zip(right, got, strict=True), 1) if a != b)
-
-
-if __name__ == "__main__":
-    print("\n".join((*lines(example_v()), *tally())))

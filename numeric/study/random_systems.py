@@ -29,7 +29,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import lapack
+from scipy.linalg import lapack, null_space
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
@@ -119,7 +119,7 @@ def with_zeros(
     for i, (z, column) in enumerate(zip(zeros, directions, strict=True)):
         equations[i, :, (n + p) * column : (n + p) * (column + 1)] = np.eye(n + p)
         equations[i, :, height + n * i : height + n * (i + 1)] = np.vstack([A - z * np.eye(n), C])
-    solutions = _null_space(equations.reshape(count * (n + p), -1)) if count else np.eye(height)
+    solutions = null_space(equations.reshape(count * (n + p), -1)) if count else np.eye(height)
     if solutions.shape[1] == 0:
         raise InvalidData(
             f"{counted(count, 'zero')} {'is' if count == 1 else 'are'} too many for {counted(n, 'state')}, "
@@ -133,13 +133,6 @@ def with_zeros(
     columns = (basis[:, kept] @ draw).reshape(n_v, n + p).T
     states = (solutions[height:] @ (right[kept].T @ (draw / sizes[kept]))).reshape(count, n).T
     return columns[:n], columns[n:], states
-
-
-def _null_space(matrix: Array) -> Array:
-    """Return an orthonormal basis (columns, k) of the null space, rank by numpy's tolerance."""
-    _, values, right = np.linalg.svd(matrix)
-    rank = int(np.sum(values > max(matrix.shape) * np.finfo(np.float64).eps * values.max(initial=0.0)))
-    return np.asarray(right[rank:].T)
 
 
 def pencil_zeros(A: Array, F: Array, C: Array, G: Array, rng: np.random.Generator | None = None) -> ComplexArray:

@@ -10,6 +10,7 @@
     STUDIES              these plans by name
     check_memory         refuses more systems or samples than memory holds
     Study                what came of a plan: a Case for each system, read by people, programs and notebooks
+    done_by              each result of tasks as it comes, whoever worked on it
 
 What is wrong with the published numbers, and how a case says so. With no zeros rank R_5 = 15 of 15 rows: there is no null row, every
 column is a solution, and [F; G] lies in all of R^8. Such a case is marked `vacuous`: its error is zero by construction, for any data.
@@ -18,7 +19,7 @@ alone. So each case carries the errors by three metrics, and those of a random s
 
 What the published program gives. Run as it stands on 2000 systems it has medians of 3.9, 0.92 and 1.04 % for 1, 2, 3 zeros under Octave;
 a quarter of its "three zeros" then have four. Its generator plants two zeros in one fault, asks a zero finder whether three came out,
-and where not plants one more. They always do (`study_systems`); but Octave's finder, which takes no tolerance, misses them in a quarter
+and where not plants one more. They always do (`random_systems.py`); but Octave's finder, which takes no tolerance, misses them in a quarter
 of the draws, and the rank is then one too high. With a finder put in its place that counts zeros at a relative tolerance of 1e-9 (the
 program asks for 1e-10), there are three in all of 400 and the median is 0.65 %. On the program's data this package's estimates have its
 errors to 1e-12. The author's own plot, of 25 systems each, shows medians of about 2.3, 1.7 and 0.9 %: within sampling error of either;
@@ -33,18 +34,17 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from functools import partial
-from typing import Any
+from typing import Any, TypeVar
 
+import joblib
 import numpy as np
 import psutil
 
 from ...base.errors import InvalidData, shorten
 from ...base.progress import Progress, silent
 from ...base.sheets import Shown, counted
-from ...base.tasks import Died, Task
+from ...base.tasks import Died, Task, Tasks, as_they_come
 from ..data.validation import positive
-from .case_stacks import published_cases
 from .groups import Group, Plan, StudyCases, by_phase, by_zeros
 from .plots import errors_by_zeros
 from .runs import SAMPLES
@@ -58,9 +58,8 @@ from .study_cases import (
     corrected_case,
     corrected_identified_case,
     identified_case,
-    one_by_one,
+    published_case,
 )
-from .study_workers import done_by
 
 SEED = 1907
 CASE_BYTES = 1 << 12
@@ -72,36 +71,19 @@ _CONTAINMENT = "angles from [F; G] to the estimate (containment) over n_v pi/2; 
 _TWO_SIDED = "two-sided distance between the true fault space and the estimate, over its maximum"
 _BOTH = (PAPER, LIKELIHOOD)
 PUBLISHED = Plan(
-    "published", "as published: s = 5, true A, B, C, D, noise 43 dB down", "published", _CONTAINMENT, (PAPER,), published_cases, 100, 1000
+    "published", "as published: s = 5, true A, B, C, D, noise 43 dB down", "published", _CONTAINMENT, (PAPER,), published_case, 1000
 )
 IDENTIFIED = Plan(
-    "identified",
-    "identified: s = 5, A, B, C, D by PI-MOESP, noise 43 dB down",
-    "published",
-    _CONTAINMENT,
-    (PAPER,),
-    partial(one_by_one, identified_case),
-    1,
-    40,
+    "identified", "identified: s = 5, A, B, C, D by PI-MOESP, noise 43 dB down", "published", _CONTAINMENT, (PAPER,), identified_case, 40
 )
-CORRECTED = Plan(
-    "corrected",
-    "as corrected: s = 6, true A, B, C, D, noise 40 dB down",
-    "two_sided",
-    _TWO_SIDED,
-    _BOTH,
-    partial(one_by_one, corrected_case),
-    1,
-    20,
-)
+CORRECTED = Plan("corrected", "as corrected: s = 6, true A, B, C, D, noise 40 dB down", "two_sided", _TWO_SIDED, _BOTH, corrected_case, 20)
 CORRECTED_IDENTIFIED = Plan(
     "corrected-identified",
     "corrected and identified: s = 6, A, B, C, D by PI-MOESP (laws: by reduction), noise 40 dB down",
     "two_sided",
     _TWO_SIDED,
     (*_BOTH, LAWS),
-    partial(one_by_one, corrected_identified_case),
-    1,
+    corrected_identified_case,
     20,
 )
 STUDIES = {plan.name: plan for plan in (PUBLISHED, IDENTIFIED, CORRECTED, CORRECTED_IDENTIFIED)}
@@ -208,10 +190,11 @@ def monte_carlo(
     left = [index for index in range(systems) if index not in found]
     heard = on_progress or silent
     heard(plan.name, len(found), systems)
-    for came in _done(plan, left, seed, samples, jobs, cluster):
+    for k, came in done_by(attempted, _Cases(plan, seed, samples, left), worth=plan.worth, jobs=jobs, cluster=cluster):
+        one = Failed(left[k], came.reason) if isinstance(came, Died) else came
         if on_cases is not None:
-            on_cases(came)
-        found |= {each.index: each for each in came}
+            on_cases([one])
+        found[one.index] = one
         heard(plan.name, len(found), systems)
     each = [found[index] for index in range(systems)]
     cases, failed = tuple(one for one in each if isinstance(one, Case)), tuple(one for one in each if isinstance(one, Failed))
@@ -219,44 +202,21 @@ def monte_carlo(
 
 
 @dataclass(frozen=True)
-class _Stacks:
-    """The tasks of a study: the cases with these indices, `size` at a time, whose seeds are made when they are asked for."""
+class _Cases:
+    """The tasks of a study: the cases with these indices, whose seeds are made when they are asked for."""
 
     plan: Plan
     seed: int
     samples: int
     indices: Sequence[int]
-    size: int
-
-    def of(self, number: int) -> Sequence[int]:
-        """Return the indices of a task's cases."""
-        return self.indices[number * self.size : (number + 1) * self.size]
 
     def __len__(self) -> int:
-        return -(-len(self.indices) // self.size)
+        return len(self.indices)
 
     def __getitem__(self, number: int) -> Task:
+        index = self.indices[number]
         # What SeedSequence(seed).spawn gives each of them, without the others.
-        numbered = [(index, np.random.SeedSequence(self.seed, spawn_key=(index,))) for index in self.of(number)]
-        return self.plan.cases, numbered, self.samples
-
-
-def _done(
-    plan: Plan, indices: Sequence[int], seed: int, samples: int, jobs: int | None, cluster: str | None
-) -> Iterator[list[Case | Failed]]:
-    """Yield the cases of stack after stack, as they come. Of a stack whose process ended each time, each case is tried alone."""
-    tried, stack, worth = indices, plan.stack, -(-plan.worth // plan.stack)
-    while tried:
-        stacks = _Stacks(plan, seed, samples, tried, stack)
-        again: list[int] = []
-        for k, came in done_by(attempted, stacks, worth=worth, jobs=jobs, cluster=cluster):
-            if not isinstance(came, Died):
-                yield came
-            elif len(stacks.of(k)) == 1:
-                yield [Failed(stacks.of(k)[0], came.reason)]
-            else:
-                again += stacks.of(k)
-        tried, stack, worth = again, 1, 1  # what ended another process is not to end this one
+        return self.plan.case, index, np.random.SeedSequence(self.seed, spawn_key=(index,)), self.samples
 
 
 def check_memory(systems: int, samples: int, plans: int = 1) -> None:
@@ -290,3 +250,25 @@ def _in_words(group: Group) -> str:
 
 def _percent(value: float | None) -> str:
     return "unknown" if value is None else f"{100 * value:.2g} %"
+
+
+Result = TypeVar("Result")
+
+
+def done_by(
+    function: Callable[..., Result],
+    tasks: Tasks,
+    *,
+    worth: int,
+    jobs: int | None = None,
+    cluster: str | None = None,
+) -> Iterator[tuple[int, Result | Died]]:
+    """Yield the number of each task with function(*task), as it comes; `jobs` processes (None: all cores), or the workers of the Dask
+    scheduler at the address `cluster`.
+
+    Raises InvalidData for numbers below one, for a cluster and jobs at once, and for a cluster that cannot be used.
+    """
+    if cluster is not None and jobs is not None:
+        raise InvalidData(f"jobs: got {jobs} together with a cluster, which decides for itself; leave one of them out")
+    count = joblib.cpu_count() if jobs is None else positive(jobs, "jobs")
+    return as_they_come(function, tasks, count=min(count, -(-len(tasks) // worth)), cluster=cluster)

@@ -2,9 +2,7 @@
 
     published_case, corrected_case               with the true A, B, C, D
     identified_case, corrected_identified_case   with A, B, C, D from PI-MOESP on the same data
-    one_by_one                                   the cases of these indices and seeds, one after the other
-    attempted                                    the cases of these indices and seeds, a Failed for each that raised
-    Numbered                                     an index with the seed of its case
+    attempted                                    a case, or a Failed where it raised
     Case                                         the system's zeros, the noise, an estimate for each estimator, a random subspace
     Failed                                       in the place of a case that there is not: its index, and why
     Estimate                                     of one estimator: its dimension and errors
@@ -19,7 +17,7 @@ A case is a function of its index and seed alone.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,8 +36,6 @@ from ..method.space.estimate import orthonormal
 from .random_systems import MOST_ZEROS, N_V, N_X, P, StudySystem, study_system
 from .runs import NOISE_GAIN, StudyRun, response, study_run
 from .toeplitz_factorisation import toeplitz_factorisation
-
-Numbered = tuple[int, np.random.SeedSequence]
 
 PUBLISHED_WINDOW, CORRECTED_WINDOW = 5, N_X + 1
 NOISE_LEVEL = 0.01  # of the published study [G25]
@@ -152,19 +148,14 @@ def seeds_of_parts(seed: np.random.SeedSequence) -> list[np.random.SeedSequence]
     return [np.random.SeedSequence(seed.entropy, spawn_key=(*seed.spawn_key, part)) for part in range(4)]
 
 
-def one_by_one(case: Callable[[int, np.random.SeedSequence, int], Case], numbered: Sequence[Numbered], samples: int) -> list[Case]:
-    """Return case(index, seed, samples) for each index and seed, in their order."""
-    return [case(index, seed, samples) for index, seed in numbered]
-
-
-def attempted(cases: Callable[[Sequence[Numbered], int], list[Case]], numbered: Sequence[Numbered], samples: int) -> list[Case | Failed]:
-    """Return cases(numbered, samples), where that raises those of each index alone, and a Failed for each that still raises."""
+def attempted(
+    case: Callable[[int, np.random.SeedSequence, int], Case], index: int, seed: np.random.SeedSequence, samples: int
+) -> Case | Failed:
+    """Return case(index, seed, samples), and a Failed where that raises."""
     try:
-        return list(cases(numbered, samples))
+        return case(index, seed, samples)
     except Exception as error:
-        if len(numbered) == 1:
-            return [Failed(numbered[0][0], " ".join(f"{type(error).__name__}: {error}".split()))]
-    return [one for each in numbered for one in attempted(cases, [each], samples)]
+        return Failed(index, " ".join(f"{type(error).__name__}: {error}".split()))
 
 
 def _with_true_model(

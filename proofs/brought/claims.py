@@ -62,10 +62,15 @@ class Answered(StrEnum):
 
 @dataclass(frozen=True)
 class Hypothesis:
-    """A condition, and the words it is shown by."""
+    """A condition, and what it is called by whoever brings it."""
 
     that: Node
     label: str
+
+    @property
+    def words(self) -> str:
+        """What was decided, whatever it is called."""
+        return self.label if self.label == self.that.text else f"{self.label}: {self.that.text}"
 
 
 @dataclass(frozen=True)
@@ -119,7 +124,7 @@ def expression(given: object, where: str, kind: Kind = Kind.WORD, vocabulary: Vo
     """Return the expression of a text, or what a Python predicate makes one. Raises InvalidInput that begins with `where`."""
     if callable(given):
         name = getattr(given, "__name__", "a predicate")
-        return Node("python", kind, (), given, "a predicate of Python" if name == "<lambda>" else name, 1)
+        return Node("python", kind, (), given, "a predicate of Python" if name == "<lambda>" else f"{name}, a predicate of Python", 1)
     if not isinstance(given, str):
         raise InvalidInput(f"{where}: got {shorten(given)}, expected an expression as a string")
     try:

@@ -98,7 +98,7 @@ def _over(claim: Claim, field: str, *, ablation: bool, most: int, sharing: Shari
         field=field,
         statement=claim.statement,
         source=claim.source,
-        hypotheses=tuple(one.label for one in claim.hypotheses),
+        hypotheses=tuple(one.words for one in claim.hypotheses),
         conclusion=conclusion.text,
         verdict=verdict,
         counterexample=counterexample,

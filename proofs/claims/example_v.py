@@ -1,15 +1,14 @@
-"""example-v: n_v = 1, two columns in (Fhat, Ghat), (A, F) not controllable, 'seventh singular value of R5 negligible against R6'.
+"""example-v: n_v = 1, two columns in (Fhat, Ghat), (A, F) not controllable, and the caption that the review quotes.
 
 Decided over the example's own number field: F is an eigenvector of A to a root of 4 q^3 - q^2 - 3 q + 1, irreducible over Q.
 """
 
 from __future__ import annotations
 
-from functools import cache
-
 from ...exact.algebra.matrices import Matrix
 from ...exact.structure.fault_columns import fault_space
 from ..evidence.families import paper_example
+from ..evidence.once_a_run import once_a_run
 from ..evidence.subjects import kernel_once
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -19,7 +18,7 @@ from ..verdict.workbench import Workbench, accepted
 SAMPLES = 24
 
 
-@cache
+@once_a_run(1)
 def _certificates() -> dict[str, Certificate]:
     """Everything about the example is certified here, and accepted by the checker."""
     system = paper_example().residual
@@ -97,7 +96,7 @@ def example_v_zeros_and_delays(bench: Workbench) -> Outcome:
 
 
 def example_v_seventh_singular_value(bench: Workbench) -> Outcome:
-    """The review's sentence is read as a rank: the seventh singular value of R5 is negligible, so that rank R5 = 6."""
+    """The caption that the review quotes is read as a rank: the seventh singular value of R5 is negligible, so that rank R5 = 6."""
     r5, r6, words = _data_ranks()
     return _outcome(r5 == 6 and r6 == 7, words, "R5", "R6", "excitation 5", "excitation 6")
 

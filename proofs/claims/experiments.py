@@ -2,7 +2,7 @@
 
 proposition-1      under assumptions 1 to 3 PI-MOESP recovers A, B, C, D consistently
 assumption-2       (1/N) sum u(k-l) v(k)^T -> 0 for all l >= 0, which with assumption 1 is said to give (1/N) V_s U_s^T -> 0
-past-outputs       with past outputs among the instruments, as tools have them, a coloured fault biases the estimate
+past-outputs       with past outputs among the instruments, as tools have them, a coloured fault can bias the estimate
 settle-1           a fault that follows the input, v(k) = K u(k-1), biases PI-MOESP. One does; not every one does
 drives             a system with u and v(k) = sum phi_j u(k+j)
 smallest_limit     the first small experiment that meets a condition, with its certificates

@@ -208,7 +208,7 @@ def proposition_3_parametric(bench: Workbench) -> Outcome:
 
 
 def objection_3_controllability_needed(bench: Workbench) -> Outcome:
-    """'Without controllability the formula fails': the smallest system not controllable where it holds; the paper's example is another."""
+    """The formula is claimed to fail without controllability: the smallest such system where it holds; the paper's example is another."""
 
     def holds(system: ResidualSystem) -> bool:
         e = bench.examined(system, MINIMAL)

@@ -16,7 +16,6 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import product
 from typing import Any
 
@@ -31,6 +30,7 @@ from ..trust.structure_certificates import Certificate, accept
 from .exhaustive import all_systems, orbits
 from .families import adversarial, random_systems, shift_registers
 from .material import Material
+from .once_a_run import once_a_run
 from .subjects import kernel_once, space_once
 
 
@@ -79,7 +79,7 @@ class Ranked:
         return max(self.left_minimal_indices, default=0)
 
 
-@lru_cache(maxsize=1 << 13)
+@once_a_run(1 << 13)
 def ranked(system: ResidualSystem) -> Ranked:
     """Return the kernel representation of a system, its window ranks certified."""
     kernel = kernel_once(system)
@@ -96,7 +96,7 @@ class Basis:
     accepted: str
 
 
-@lru_cache(maxsize=1 << 13)
+@once_a_run(1 << 13)
 def fault_space_basis(system: ResidualSystem) -> Basis:
     """Return the rows of a basis of the fault space, as an accepted certificate states them."""
     kernel = ranked(system).kernel
@@ -125,7 +125,7 @@ class Comparison:
     accepted: str
 
 
-@lru_cache(maxsize=1 << 13)
+@once_a_run(1 << 13)
 def compared(first: ResidualSystem, second: ResidualSystem) -> Comparison:
     """Return on how many samples the behaviours differ, as an accepted certificate states it.
 

@@ -1,6 +1,6 @@
 """These are systems to try a claim on: the paper's own, adversarial families with a name, and random ones of every structure.
 
-    paper_example         the review's section V over its cubic number field
+    paper_example         the example of [G25] section V over its cubic number field
     shift_registers       length n, F = 0 against F = e_n: equal on n samples, different on n + 1
     adversarial           named families of small systems, each made to break something
     random_systems        of every structure: planted output-nulling parts, unobservable, uncontrollable, not left-invertible,

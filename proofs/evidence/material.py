@@ -19,6 +19,7 @@ from uuid import uuid4
 
 from ...base.progress import Progress
 from ...base.tasks import ordered, processes
+from .once_a_run import in_run
 
 
 @dataclass(frozen=True)
@@ -56,11 +57,12 @@ class Packed:
     batches: tuple[bytes, ...]
 
 
-def made(kinds: Sequence[Material], bench: Any, jobs: int, progress: Progress) -> list[Packed]:
-    """Return what is made of the kinds, which `loaded` reads; each kind is in one of them.
+def made(kinds: Sequence[Material], bench: Any, jobs: int, progress: Progress, run: str) -> list[Packed]:
+    """Return what is made of the kinds in the run of that name, which `loaded` reads; each kind is in one of them.
 
     Kinds that are made of the same items are made of each batch of them together, so that what is found out about an item serves them all.
     """
+    in_run(run)
     alike: dict[Callable[[Any], Iterable[Any]], list[Material]] = {}
     for kind in kinds:
         alike.setdefault(kind.items, []).append(kind)
@@ -74,7 +76,7 @@ def made(kinds: Sequence[Material], bench: Any, jobs: int, progress: Progress) -
             continue
         tasks += [(k, some, items[start : start + some[0].together]) for start in range(0, len(items), some[0].together)]
     done, total = 0, sum(len(batch) for _, _, batch in tasks)
-    stream = ordered(_made_of, [([kind.make for kind in some], batch) for _, some, batch in tasks], count=processes(jobs))
+    stream = ordered(_made_of, [(run, [kind.make for kind in some], batch) for _, some, batch in tasks], count=processes(jobs))
     for (k, some, batch), answers in zip(tasks, stream, strict=True):
         batches[k].append(answers)
         done += len(batch)
@@ -148,7 +150,8 @@ class Carried:
 Shelf = Folder | Carried
 
 
-def _made_of(makes: Sequence[Callable[[Any], Any]], batch: Sequence[Any]) -> bytes:
+def _made_of(run: str, makes: Sequence[Callable[[Any], Any]], batch: Sequence[Any]) -> bytes:
+    in_run(run)
     return _in_bytes([_made_one_way(make, batch) for make in makes])
 
 

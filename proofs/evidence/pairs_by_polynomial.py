@@ -29,6 +29,7 @@ from .alternatives import compared, fault_space_basis, ranked
 from .exhaustive import orbits
 from .families import adversarial, random_systems
 from .material import Material
+from .once_a_run import once_a_run
 from .subjects import kernel_once
 
 MOST_STATES = 3
@@ -76,7 +77,7 @@ class CertifiedZeros:
     accepted: frozenset[str]
 
 
-@lru_cache(maxsize=1 << 13)
+@once_a_run(1 << 13)
 def certified_zeros(system: ResidualSystem) -> CertifiedZeros:
     """Return the certified zeros of a system, found once: several P of a small system give the same pair."""
     certificates = [make.finite_zeros(system), make.infinite_zeros(system)]

@@ -1,7 +1,7 @@
 """The hypotheses of the claims about one system, each as an ablation on windows of systems.
 
 rank_formula                        theorem-2
-gap, gap_from_lag                   proposition-3, as the paper bounds s and with the sharp bound
+gap, gap_from_lag                   proposition-3, with s >= n as the review has it, and with the sharp bound
 solutions, solutions_from_lag       problem (11) at a window, with both bounds
 columns                             the number of columns of (Fhat, Ghat)
 range_of_f                          zero-feedthrough
@@ -50,7 +50,7 @@ def rank_formula() -> Ablation[Windowed]:
 
 
 def gap() -> Ablation[Windowed]:
-    """Return the ablation of proposition-3 as the paper bounds s."""
+    """Return the ablation of proposition-3 with s >= n, as the review has it."""
     hypotheses = {**MODEL, "s >= l": FROM_DELAY, "s >= n": from_n()}
     proof = _proof("proposition_3", uses={INVERTIBLE, "s >= n"})
     implied = {"s >= l": "a left-invertible system is inverted with delay n at most (theorem left_invertible_delay), so l <= n <= s"}

@@ -267,17 +267,16 @@ def _own(folder: Path) -> bool:
     )
 
 
-def forget() -> None:
-    """Remove the compiled theory of our sources from the cache, with all answers that were kept about it. Raises NoRocq."""
-    place = _place(sources())
+def forget(texts: dict[str, str]) -> None:
+    """Remove the compiled theory of these sources from the cache, with all answers that were kept about it. Raises NoRocq."""
+    place = _place(texts)
     shutil.rmtree(place, ignore_errors=True)
     for one in place.parent.glob(f"{place.name}.*"):
         one.unlink(missing_ok=True)
 
 
-def kept_theory() -> Path | None:
-    """Return the folder with all of our theory, if it has been compiled before. Raises NoRocq."""
-    texts = sources()
+def kept_theory(texts: dict[str, str]) -> Path | None:
+    """Return the folder with the theory of these sources, if it has been compiled before. Raises NoRocq."""
     place = _place(texts)
     return place if _whole(place, texts) else None
 

@@ -9,8 +9,9 @@
 A lock is computed from the text of our sources, without comments and line breaks, so it is the same for each version of Rocq. It is the
 SHA-256 of the lines: what the file opens with, every sentence of every vocabulary that it imports, in order, what may change the reading
 of a text from afar (canonical structures and notations of the whole theory), the statement. Words that the statement does not reach are in
-it, too: a name that nobody uses can still stand for one of MathComp's. That a theorem says what a reading of the ledger says in words is
-for readers to see, too, and so the readings are locked with their theorems. After a change that is wanted,
+it, too: a name that nobody uses can still stand for one of MathComp's. That a theorem says what a reading of the ledger says in words, or
+what a statement in the language of claims says, is for readers to see, too, and so these are locked with the theorems, and with the
+readings what makes of their verdicts that on the claim. After a change that is wanted,
 
     python -m faultspace.proofs.rocq.locks
 
@@ -22,13 +23,15 @@ from __future__ import annotations
 import hashlib
 import json
 import sys
+import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from importlib import resources
 from pathlib import Path
 from typing import Any
 
 from ...base.writing import write_text
-from ..verdict.ledger import load
+from ..verdict.ledger import expected_without, load
 from .build import NotProved
 from .sentences import refusals
 from .sources import THEORY, sources
@@ -37,6 +40,8 @@ from .statements import Headline, Statements, read
 LOCKS = "locks.json"
 COMMAND = "python -m faultspace.proofs.rocq.locks"
 MOST_LISTED = 4
+# The texts of readings, and what theorems say, in the language of claims: package, path, table.
+IN_THE_LANGUAGE = (("faultspace", ("examples", "ledger.toml"), "claim"), ("faultspace.proofs.brought", ("theorems.toml",), "theorem"))
 
 
 @dataclass(frozen=True)
@@ -58,7 +63,7 @@ class Lock:
 class Locks:
     """The locks hold `theorems` by name, and the texts that they are made of: `words` by key, `openings` by file, `far`. `vocabularies`:
     file -> the SHA-256 of all that it says, in its order. `readings`: "claim.reading" -> the SHA-256 of it as the ledger has it, and of the
-    claim's words."""
+    claim's words; likewise of all else that the ledger says, of its texts in the language of claims, and of what that says of theorems."""
 
     theorems: Mapping[str, Lock]
     words: Mapping[str, str]
@@ -103,12 +108,17 @@ def made(texts: Mapping[str, str]) -> Locks:
 
 
 def _readings() -> dict[str, str]:
-    """Return the digests of the readings of the ledger, by their names."""
-    return {
-        f"{claim.id}.{reading.id}": _sha256([claim.statement, json.dumps(reading.to_json(), sort_keys=True)])
-        for claim in load()
-        for reading in claim.readings
-    }
+    """Return the digests of what stands in words or in the language of claims, and is read beside the theorems, by names."""
+    said: dict[str, list[Any]] = {}
+    for claim in load():
+        said[claim.id] = [{**claim.to_json(), "readings": [reading.id for reading in claim.readings]}]
+        said |= {f"{claim.id}.{reading.id}": [claim.statement, reading.to_json()] for reading in claim.readings}
+    said |= {f"without {name}": [verdicts] for name, verdicts in expected_without().items()}
+    for package, path, table in IN_THE_LANGUAGE:
+        text = resources.files(package).joinpath(*path).read_text("utf-8")
+        said |= {f"{path[-1]}: {name}": [one] for name, one in tomllib.loads(text)[table].items()}
+    texts = {name: [one if isinstance(one, str) else json.dumps(one, sort_keys=True) for one in several] for name, several in said.items()}
+    return {name: _sha256(several) for name, several in texts.items()}
 
 
 def _stated(headline: Headline) -> str:
@@ -173,7 +183,7 @@ def differences(before: Locks, now: Locks) -> Iterator[str]:
             yield f"what {file} opens with {_changed(said, was)}"
     for name in sorted({*before.readings, *now.readings}):
         if before.readings.get(name) != now.readings.get(name):
-            yield f"the ledger's reading {name} is not the one that was read with its theorems"
+            yield f"what stands under {name} in the ledger, or in the language of claims, is not what was read with the theorems"
     for one in sorted({*before.far} ^ {*now.far}):
         yield f"{one} may change how statements are read, and is {'not locked' if one in now.far else 'gone'}"
     same = before.words == now.words and before.openings == now.openings and {*before.far} == {*now.far}

@@ -11,11 +11,14 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
+import tempfile
 from pathlib import Path
 
 from ...base.processes import ending_with_us
 from ...base.progress import Progress, silent
 from .build import NotProved, compiled_theory, environment, forget
+from .locks import held
+from .sources import sources
 
 SECONDS = 1800
 AXIOMS = "Axioms"
@@ -32,9 +35,10 @@ PRIMITIVE = re.compile(r"Coq\.(?:Numbers\.Cyclic\.Int63\.PrimInt63|Strings\.Prim
 
 
 def recheck(progress: Progress = silent) -> str:
-    """Return what was done, in words. Raises NoRocq, BrokenTheory, NotProved."""
-    forget()
-    theory = compiled_theory(progress)
+    """Return what was done, in words. Raises NoRocq, BrokenTheory, NotProved: before Rocq sees what is not as locked, too."""
+    held(texts := sources())
+    forget(texts)
+    theory = compiled_theory(progress, texts=texts)
     if shutil.which("coqchk") is None:
         return "compiled anew; coqchk is not on the path, so that Rocq's kernel alone has read it"
     progress("Rocq: reading the theory again with coqchk", 0, 1)
@@ -49,16 +53,17 @@ def second_check(theory: Path, seconds: float = SECONDS) -> None:
     names = [f"faultspace.{one.stem}" for one in sorted(theory.glob("*.vo"))]
     command = [path, "-silent", "-o", "-Q", str(theory), "faultspace", *names]
     try:
-        run = subprocess.run(
-            command,
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=seconds,
-            env=environment(),
-            stdin=subprocess.DEVNULL,
-            preexec_fn=ending_with_us(),
-        )
+        with tempfile.TemporaryDirectory() as home:  # without one it would take the folder in which it was started, and load from there
+            run = subprocess.run(
+                command,
+                capture_output=True,
+                text=True,
+                check=False,
+                timeout=seconds,
+                env=environment(home),
+                stdin=subprocess.DEVNULL,
+                preexec_fn=ending_with_us(),
+            )
     except subprocess.TimeoutExpired:
         raise NotProved(f"coqchk took more than {seconds:g} s") from None
     printed = run.stdout + run.stderr  # with -silent the summary goes to standard error

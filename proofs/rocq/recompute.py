@@ -29,7 +29,7 @@ of these goes into loading the theory, another one into asking what the theorem 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -64,8 +64,8 @@ def recomputed(certificates: Sequence[Any], progress: Progress = silent, *, seco
     """Return one answer for each certificate. Rocq is asked about what the checker verifies, and about nothing else: the rest is rejected
     here. Undecided is what takes longer than `seconds`, or too much memory. Raises NoRocq, BrokenTheory (of the theory itself), NotProved
     where the words that statements are made of are not as locked."""
-    held(sources())
-    compiled = theory(progress)
+    held(texts := sources())
+    compiled = theory(progress, texts)
     results: dict[int, Recomputed] = {}
     terms: dict[int, Terms] = {}
     for i, certificate in enumerate(certificates):
@@ -84,11 +84,12 @@ def recomputed(certificates: Sequence[Any], progress: Progress = silent, *, seco
     return [results[i] for i in range(len(certificates))]
 
 
-def theory(progress: Progress = silent) -> Path:
-    """Return the folder with the compiled files that the checks need. Raises NoRocq, BrokenTheory."""
-    if (whole := kept_theory()) is not None:
+def theory(progress: Progress = silent, texts: Mapping[str, str] | None = None) -> Path:
+    """Return the folder with the compiled files that the checks need, of these sources (None: as they lie there now). Raises NoRocq,
+    BrokenTheory."""
+    texts, wanted = dict(sources() if texts is None else texts), set[str]()
+    if (whole := kept_theory(texts)) is not None:
         return whole
-    texts, wanted = sources(), set[str]()
     required, waiting = needs(texts), [f"{module}.v" for module in MODULES]
     while waiting:
         if (name := waiting.pop()) not in wanted:

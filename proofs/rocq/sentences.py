@@ -8,8 +8,11 @@ So a text is cut by the rules of Rocq's lexer. A sentence ends with a full stop 
 within them are strings. Where a notation could make Rocq cut a text in another place, as with two full stops or with a comment that does
 not stand after a blank, the text is refused: no token of Rocq holds a blank, so after one there is no doubt.
 
-A sentence within a proof is a tactic, which begins with a small letter or a sign. Any other begins with one of the commands below, each in
-the one form in which the theory uses it. What is not among them is refused, whatever it may do.
+A notation, too, may make Rocq go on where a sentence ends for us: so no token of one ends with a full stop.
+
+A sentence within a proof is a tactic, which begins with a small letter, behind a bullet or the number of a goal. Any other begins with one
+of the commands below, each in the one form in which the theory uses it. What is not among them is refused, whatever it may do. For Rocq an
+opened brace is a sentence of its own, behind which any command may stand: so none is opened, by the number or by the name of a goal.
 """
 
 from __future__ import annotations
@@ -38,14 +41,16 @@ COMMANDS = re.compile(
     |Local\ (?:Open|Close)\ Scope\ \w+""",
     re.VERBOSE,
 )
-TACTIC = re.compile(r"(?:(?:[-+*]+|[0-9, ]+:) ?)?[a-z\[].*")
+TACTIC = re.compile(r"(?:(?:[-+*]+|[0-9, ]+:) ?)?[a-z].*")
 # Words that leave something open, that the kernel does not judge, or that write and load; in no term and in no tactic of the theory.
 WORDS = re.compile(
     r"(?<![\w'])(?:admit|give_up|proof_admitted|native_compute|native_cast_no_check|vm_cast_no_check|exact_no_check|bypass_check"
     r"|type-in-type|ltac2)(?![\w'])"
 )
 # A field or a variable that is a coercion, too, which is told by a sign alone.
-COERCION = re.compile(rf"(?:Record|Variables?|Hypothes[ie]s)\b(?:.*[({{;])? ?(?:{NAME} )+:>")
+COERCION = re.compile(rf"(?:Record|Variables?|Hypothes[ie]s)\b(?:.*[({{;\]])? ?(?:{NAME} )*{NAME} ?::?>")
+# A notation within a definition, and one with a token after which Rocq goes on where a sentence ends for us.
+NOTATION = re.compile(r""".*\bwhere ?"|(?:Local )?Notation "[^"]*\.[ '"]""")
 
 
 @cache
@@ -103,7 +108,7 @@ def _refused(name: str, found: tuple[str, ...]) -> Iterator[str]:
             proving = sentence not in ("Qed.", "Defined.")
             if proving and sentence != "Proof." and not TACTIC.fullmatch(sentence):
                 yield short(sentence)
-        elif not COMMANDS.fullmatch(sentence[:-1]) or COERCION.match(sentence):
+        elif not COMMANDS.fullmatch(sentence[:-1]) or COERCION.match(sentence) or NOTATION.match(sentence):
             yield short(sentence)
         elif command in ("Section", "Module"):
             within.append((command, rest[0]))

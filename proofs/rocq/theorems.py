@@ -46,7 +46,7 @@ def check(names: Iterable[str], progress: Progress = silent) -> Theorems:
     """Return the statements of these headlines. Raises NotProved, NoRocq, BrokenTheory, Poisoned."""
     wanted, texts = sorted(set(names)), sources()
     locks = held(texts)
-    statements = asked(wanted, texts, compiled_theory(progress), progress)
+    statements = asked(wanted, texts, compiled_theory(progress, texts=texts), progress)  # of what was judged, whatever lies there now
     compiler = found()
     if compiler is None:
         raise NoRocq(f"coqc is no longer on the path; {INSTALL}")

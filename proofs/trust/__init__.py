@@ -1,14 +1,17 @@
 """The certificates, the checker that alone decides them, and what makes them.
 
-The files of the checker are compiled here from what is read in them: what Python kept of them compiled, in __pycache__, is not believed.
+The files of the checker are compiled here from what is read in them: what Python kept of them compiled, in __pycache__, is not believed,
+nor is a folder or a library of the same name beside them, which Python would prefer.
 """
 
 import sys
 from importlib.abc import MetaPathFinder
-from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
+from importlib.machinery import ModuleSpec, SourceFileLoader
+from importlib.util import spec_from_file_location
+from pathlib import Path
 from types import CodeType
 
-CHECKER = tuple(f"{__name__}.checker{part}" for part in ("", "_fields", "_structure", "_limits"))
+CHECKER = {f"{__name__}.{stem}": stem for stem in ("checker", "checker_fields", "checker_structure", "checker_limits")}
 
 
 class _AsRead(SourceFileLoader):
@@ -20,10 +23,10 @@ class _AsRead(SourceFileLoader):
 class _Checker(MetaPathFinder):
     @staticmethod
     def find_spec(name: str, path: object = None, target: object = None) -> ModuleSpec | None:
-        found = PathFinder.find_spec(name, __path__) if name in CHECKER else None
-        if found is not None and found.origin is not None:
-            found.loader, found.cached = _AsRead(name, found.origin), None
-        return found
+        if name not in CHECKER:
+            return None
+        file = str(Path(__file__).with_name(f"{CHECKER[name]}.py"))
+        return spec_from_file_location(name, file, loader=_AsRead(name, file))
 
 
 sys.meta_path.insert(0, _Checker())

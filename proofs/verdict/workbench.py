@@ -16,6 +16,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, TypeVar
+from uuid import uuid4
 
 from ...base.progress import Progress
 from ...exact.limits.experiments import Experiment
@@ -118,7 +119,7 @@ class Workbench:
 
     def make(self, kinds: Sequence[Material], shelf: Shelf | None = None) -> None:
         """Make material of these kinds, all of it at once, and put it on a shelf for other processes too where one is given."""
-        for packed in made(kinds, self, self.jobs, self.progress):
+        for packed in made(kinds, self, self.jobs, self.progress, uuid4().hex if shelf is None else shelf.run):
             self._packed |= dict.fromkeys(packed.names, packed)
             if shelf is not None:
                 shelf.put(packed)

@@ -84,7 +84,7 @@ def test_the_constants_are_where_the_question_looks(question: Question) -> None:
         assert {getattr(owner, constant.name) for owner in constant.owners} == {constant.value}
 
 
-@pytest.mark.parametrize("name", ["order", "squares"])
+@pytest.mark.parametrize("name", ["order", "space"])
 def test_a_question_is_asked_of_its_records(name: str) -> None:
     asked = [ask() for ask in QUESTIONS[name].records(0, 1, 400)]
     assert len(asked) >= 6 and {one.verdict for one in asked} <= {"right", "undecided", "wrong"}

@@ -36,7 +36,7 @@ from faultspace.base.processes import Limits
 from faultspace.numeric.audit.records import Refused
 from faultspace.numeric.audit.subjects.subprocess_adapter import Exec
 from faultspace.numeric.method.model.models import StateSpaceModel
-from faultspace.numeric.study.bound.information_bound import cramer_rao, relative_error
+from faultspace.numeric.study.information_bound import cramer_rao, relative_error
 
 TINY = next(cell for cell in CELLS if cell.name == "1in1out white")
 STUDY = next(cell for cell in CELLS if cell.name == "paper white")
@@ -127,7 +127,7 @@ def test_octave_answers_through_its_script(name: str) -> None:
 
 
 def healthy_spectra() -> Any:
-    from faultspace.numeric.study.bound.driving_spectra import Spectra, white
+    from faultspace.numeric.study.driving_spectra import Spectra, white
 
     return Spectra(white(np.eye(2)), white(1e-12 * np.eye(2)))
 

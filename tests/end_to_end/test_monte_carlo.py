@@ -12,7 +12,7 @@ from typing import Any
 import jsonschema
 import pytest
 
-from faultspace.cli import study_report, studying
+from faultspace.cli import studying
 from faultspace.numeric.plant.report import folders
 from tests.end_to_end.commands import call
 
@@ -29,7 +29,7 @@ def validator() -> Any:
 @pytest.fixture
 def without_figures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Drawing takes most of the time; one test looks at the figures."""
-    monkeypatch.setattr(study_report, "_draw", lambda studies, folder: None)
+    monkeypatch.setattr(studying, "_draw", lambda studies, folder: None)
 
 
 def test_a_tiny_study_leaves_tables_cases_and_figures_and_prints_a_document_alone(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 
@@ -19,11 +19,11 @@ import psutil
 import pytest
 
 from faultspace.base.errors import InvalidInput
-from faultspace.cli import study_report
+from faultspace.cli import studying
 from faultspace.numeric.study.groups import Plan
 from faultspace.numeric.study.keeping import LOCK, TEMPORARY, UNFINISHED, Settings, keeping
 from faultspace.numeric.study.studies import PUBLISHED, STUDIES
-from faultspace.numeric.study.study_cases import Case, Numbered, one_by_one, published_case
+from faultspace.numeric.study.study_cases import Case, published_case
 from tests.end_to_end.commands import PROGRESS, ROOT, Run, call, environment
 from tests.end_to_end.test_monte_carlo import validator
 
@@ -35,7 +35,7 @@ PATIENCE = 120.0
 
 @pytest.fixture
 def without_figures(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(study_report, "_draw", lambda studies, folder: None)
+    monkeypatch.setattr(studying, "_draw", lambda studies, folder: None)
 
 
 def study(out: Path, *more: str, systems: str = FEW) -> Run:
@@ -237,7 +237,7 @@ def test_two_runs_do_not_share_a_folder(tmp_path: Path) -> None:
 def keep_some(folder: Path, seed: int = 5) -> Path:
     numbered = list(enumerate(np.random.SeedSequence(seed).spawn(8)))
     with keeping(folder, Settings(seed, 30), resume=False) as kept:
-        kept.add("published", one_by_one(published_case, numbered[:4], 30))
+        kept.add("published", [published_case(*each, 30) for each in numbered[:4]])
     return folder / UNFINISHED
 
 
@@ -281,15 +281,15 @@ def test_cases_of_other_settings_and_files_of_others_are_left_as_they_are(tmp_pa
     assert "numpy" in study(tmp_path, "--resume").err
 
 
-def fails_at_two(numbered: Sequence[Numbered], samples: int) -> list[Case]:
-    if any(index == 2 for index, _ in numbered):
+def fails_at_two(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
+    if index == 2:
         raise RuntimeError("the third\nsystem")
-    return one_by_one(published_case, numbered, samples)
+    return published_case(index, seed, samples)
 
 
 @pytest.mark.usefixtures("without_figures")
 def test_a_case_that_fails_is_a_row_with_its_reason(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    plan = Plan(**{**vars(PUBLISHED), "cases": fails_at_two})
+    plan = Plan(**{**vars(PUBLISHED), "case": fails_at_two})
     monkeypatch.setitem(STUDIES, "published", plan)
     run = study(tmp_path, "--json")
     assert run.code == 1
@@ -303,11 +303,11 @@ def test_a_case_that_fails_is_a_row_with_its_reason(tmp_path: Path, monkeypatch:
 
 @pytest.mark.usefixtures("without_figures")
 def test_a_study_of_which_nothing_is_left_is_told_as_well(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def fails(numbered: Sequence[Numbered], samples: int) -> list[Case]:
+    def fails(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
         raise MemoryError
 
     for name, plan in STUDIES.items():
-        monkeypatch.setitem(STUDIES, name, Plan(**{**vars(plan), "cases": fails}))
+        monkeypatch.setitem(STUDIES, name, Plan(**{**vars(plan), "case": fails}))
     run = study(tmp_path, "--json")
     assert run.code == 1
     validator().validate(run.json)

@@ -21,7 +21,7 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from faultspace.cli import consoles, verdict_summary, verdict_tables, verifying
+from faultspace.cli import consoles, verdict_tables, verifying
 from faultspace.cli.command_line import main
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import read_system
@@ -251,7 +251,7 @@ def test_the_verdict_of_the_adversary_is_told_in_a_sentence(monkeypatch: pytest.
     attacked = (Attacked("one", "a counterexample", True, None), Attacked("two", "none found", False, "out of date"))
     (first, second), claim = made.claims[0].readings, made.claims[0]
     attacked_claim = replace(claim, readings=(replace(first, attacks=attacked), replace(second, attacks=attacked[:1])))
-    words = verdict_summary.attack_words(replace(made, claims=(attacked_claim, made.claims[1])))
+    words = verdict_tables.attack_words(replace(made, claims=(attacked_claim, made.claims[1])))
     assert words == (
         "3 looked at again: 2 confirm a counterexample (1 of these against a verdict other than REFUTED), 1 found none; "
         "1 out of date or not found again."

@@ -17,6 +17,7 @@ import tempfile
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from datetime import date
 from pathlib import Path
 
 import faultspace
@@ -101,7 +102,8 @@ def tables(*, errands: bool = True) -> list[str]:
     """These are the rows of the page."""
     modules = list(house())
     graph = counted(file_graph(modules))
-    rows = ["| room | files | lines | folders, or files at its top | fullest folder |", "|---|---|---|---|---|"]
+    rows = [f"Measured on {date.today().isoformat()}.", ""]
+    rows += ["| room | files | lines | folders, or files at its top | fullest folder |", "|---|---|---|---|---|"]
     rows += [f"| {one.room} | {one.files} | {one.lines} | {one.places} | {one.fullest}: {one.most} files |" for one in sizes(modules)]
     around = [" -> ".join(found) or "none" for found in (circle(graph), circle(place_graph(graph)))]
     names, functions = twins(modules)

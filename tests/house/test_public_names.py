@@ -212,6 +212,26 @@ def test_public_docstrings_say_what_is_needed() -> None:
     assert poor == {}
 
 
+def undocumented(function: Callable[..., object]) -> list[str]:
+    """Return the sections of numpydoc that a docstring lacks, and the arguments that its Parameters do not name."""
+    text = inspect.getdoc(function) or ""
+    parameters = text.partition("\nParameters\n----------\n")[2].partition("\n\n")[0]
+    named = {name.strip() for line in parameters.splitlines() if not line.startswith(" ") for name in line.partition(" : ")[0].split(",")}
+    wanted = [name for name in inspect.signature(function).parameters if name not in named]
+    return [name for name in ("Returns", "Raises", "Examples") if f"\n{name}\n{'-' * len(name)}\n" not in text] + wanted
+
+
+def test_public_functions_have_sections_that_editors_show() -> None:
+    rooms = "faultspace.exact", "faultspace.numeric"
+    functions = {f"{room}.{name}": found for room, name, found in public(*rooms) if inspect.isfunction(found)}
+    assert len(functions) > 40
+    assert {name: lacks for name, found in functions.items() if (lacks := undocumented(found))} == {}
+
+    def bare(first: int, *, second: int) -> None: ...
+
+    assert undocumented(bare) == ["Returns", "Raises", "Examples", "first", "second"]
+
+
 def test_a_poor_docstring_is_noticed() -> None:
     assert lacking("of s", from_literature=True) == [
         "a first line of words",

@@ -20,8 +20,8 @@ from faultspace.numeric.method.model.feedback import feedback_chance
 from faultspace.numeric.method.model.invariants import half_transfers, system_matrix
 from faultspace.numeric.method.model.residuals import residual
 from faultspace.numeric.method.model.weighted_reduction import Reduction, circle
-from faultspace.numeric.study.bound.driving_spectra import filtered, through, total, white
-from faultspace.numeric.study.bound.information_bound import relative_error
+from faultspace.numeric.study.driving_spectra import filtered, through, total, white
+from faultspace.numeric.study.information_bound import relative_error
 from faultspace.numeric.study.random_systems import study_system
 from faultspace.numeric.study.runs import NOISE_GAIN, study_run
 

@@ -20,9 +20,9 @@ from faultspace.base.errors import InvalidData
 from faultspace.numeric import Changes, StateSpaceModel, changes_since_healthy, changes_within, identify
 from faultspace.numeric.data.joining import healthy_from, joined
 from faultspace.numeric.data.records import recorded
-from faultspace.numeric.plant.changes.freezing import longest_run
 from faultspace.numeric.plant.changes.lines import HealthySpectrum
 from faultspace.numeric.plant.changes.predictor import Stretch, predictor
+from faultspace.numeric.plant.healthy.unlike_healthy import longest_run
 from faultspace.numeric.plant.report import result_files as report
 from tests.end_to_end.identify_runs import valid
 from tests.thorough import THOROUGH

@@ -26,7 +26,7 @@ from faultspace.numeric.method.model.input_matrices import by_output_error
 from faultspace.numeric.method.model.models import StateSpaceModel
 from faultspace.numeric.method.model.past_inputs import pi_moesp
 from faultspace.numeric.method.model.past_outputs import po_moesp
-from faultspace.numeric.method.space.by_ranks import fault_space_by_likelihood
+from faultspace.numeric.method.space.by_likelihood import fault_space_by_likelihood
 from faultspace.numeric.method.space.distances import subspace_distance
 from tests.numeric.exact_cases import floats
 

@@ -14,7 +14,8 @@ from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.numeric.method.model.models import StateSpaceModel
 from faultspace.numeric.method.space import by_likelihood as noisy_fault_space
-from faultspace.numeric.method.space.by_ranks import fault_space, fault_space_by_least_squares, fault_space_by_likelihood
+from faultspace.numeric.method.space.by_likelihood import fault_space_by_likelihood
+from faultspace.numeric.method.space.by_ranks import fault_space
 from faultspace.numeric.method.space.largest import largest_fault_space, observability_indices
 from tests.thorough import every
 
@@ -77,7 +78,7 @@ def test_indices_of_small_matrices_by_hand() -> None:
 LEVELS = (1e-3, 0.1, 1.0, 10.0)
 IN_NOISE = [
     *(pytest.param(fault_space, level, marks=() if level == 1e-3 else pytest.mark.slow) for level in LEVELS),
-    *product((fault_space_by_likelihood, fault_space_by_least_squares), LEVELS),
+    *product((fault_space_by_likelihood,), LEVELS),
 ]
 
 

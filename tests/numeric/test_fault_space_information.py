@@ -18,8 +18,8 @@ from faultspace.numeric.method.model.weighted_reduction import circle
 from faultspace.numeric.method.ranks.sample_windows import observed_coordinates
 from faultspace.numeric.method.space.estimate import kernel_conditions, orthonormal
 from faultspace.numeric.method.space.space_uncertainty import turned_by_model, turned_by_rows
-from faultspace.numeric.study.bound import space_information as room
-from faultspace.numeric.study.bound.driving_spectra import filtered, white
+from faultspace.numeric.study import space_information as room
+from faultspace.numeric.study.driving_spectra import filtered, white
 
 Bound = Callable[[StateSpaceModel, Array, Array, FaultSpectra, int], SpaceUncertainty]
 Matrices = tuple[Array, ...]

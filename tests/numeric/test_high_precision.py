@@ -28,7 +28,7 @@ from faultspace.numeric.method.model.residuals import residual
 from faultspace.numeric.method.ranks.hankel_ranks import hankel_values
 from faultspace.numeric.method.ranks.rank_gap import fault_dimension
 from faultspace.numeric.method.signal.reconstruction import reconstruct_fault
-from faultspace.numeric.study.rounding.conditioning import (
+from faultspace.numeric.study.conditioning import (
     BackwardError,
     Setting,
     by_gram,
@@ -41,7 +41,7 @@ from faultspace.numeric.study.rounding.conditioning import (
     reflections_error,
     setting,
 )
-from faultspace.numeric.study.rounding.residual_conditioning import fault_signal_error, fitted_state_error
+from faultspace.numeric.study.residual_conditioning import fault_signal_error, fitted_state_error
 from tests.numeric import high_precision as precise
 from tests.numeric.exact_cases import ExactCase, exact_case, floats
 from tests.numeric.rounding_bounds import given_state_error, noisy_range, singular_value_error

@@ -17,9 +17,9 @@ from faultspace.numeric import Spectra, StateSpaceModel, Uncertainty, cramer_rao
 from faultspace.numeric.method.model.invariants import off_gauge, state_space, system_matrix
 from faultspace.numeric.method.model.uncertainty import uncertainty_of
 from faultspace.numeric.method.model.weighted_reduction import Reduction
-from faultspace.numeric.study.bound import information_bound
-from faultspace.numeric.study.bound.driving_spectra import filtered, through, total, white
-from faultspace.numeric.study.bound.information_bound import relative_error
+from faultspace.numeric.study import information_bound
+from faultspace.numeric.study.driving_spectra import filtered, through, total, white
+from faultspace.numeric.study.information_bound import relative_error
 
 Bound = Callable[[StateSpaceModel, Spectra, int], Uncertainty]
 

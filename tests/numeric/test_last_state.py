@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from faultspace.numeric import arx_reduction, identified_fault_space
-from faultspace.numeric.method.model.last_state import last_state
+from faultspace.numeric.method.model.valleys import last_state
 from faultspace.numeric.method.rows.degree import LeastDegree, excess, least_degree, misfits
 from faultspace.numeric.method.rows.joint import course, fitted, joint_moments, refitted
 from tests.numeric.planted import joint_record, planted

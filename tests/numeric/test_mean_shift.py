@@ -14,8 +14,7 @@ from faultspace.numeric import StateSpaceModel, arx_reduction, changes_since_hea
 from faultspace.numeric.method.space.shift_isolation import gain_errors
 from faultspace.numeric.plant.healthy.against_healthy import fault_dimension_against_healthy
 from faultspace.numeric.plant.healthy.detectable import visible_white_faults
-from faultspace.numeric.plant.healthy.explained_share import noise_share
-from faultspace.numeric.plant.healthy.healthy_model import healthy_reference
+from faultspace.numeric.plant.healthy.healthy_model import healthy_reference, noise_share
 from faultspace.numeric.plant.healthy.mean_shift import mean_about_zero, mean_reference, mean_shift
 
 Array = NDArray[np.float64]

@@ -9,7 +9,7 @@ import scipy.signal
 from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import StateSpaceModel, arx_reduction, arx_reduction_experiments, identify
-from faultspace.numeric.method.model.held_out_orders import order_left_open
+from faultspace.numeric.method.model.order_choice import order_left_open
 from faultspace.numeric.method.model.order_evidence import OrderRow, weighed
 
 PLANT = StateSpaceModel(

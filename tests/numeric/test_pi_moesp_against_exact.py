@@ -21,15 +21,7 @@ from faultspace.numeric.method.model import compression as compression_module
 from faultspace.numeric.method.model import input_matrices
 from faultspace.numeric.method.model import past_inputs as pi_moesp
 from faultspace.numeric.method.model.compression import Blocks, Compression, compress
-from faultspace.numeric.study.rounding.conditioning import (
-    ModelError,
-    by_gram,
-    by_qr,
-    moesp_error,
-    noise_free_range,
-    output_error_error,
-    setting,
-)
+from faultspace.numeric.study.conditioning import ModelError, by_gram, by_qr, moesp_error, noise_free_range, output_error_error, setting
 from tests.numeric import high_precision as precise
 from tests.numeric.exact_cases import ExactCase, exact_case
 from tests.thorough import examples

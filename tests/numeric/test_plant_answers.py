@@ -78,7 +78,7 @@ def test_a_plant_that_is_curved_has_no_fault_for_being_driven_elsewhere() -> Non
         y, u = curved(seed)
         found = identify(y, u, order=3, healthy=300)
         assert not found.moved and found.shift_isolation is None and found.changes is not None and not found.changes.seen
-        with patch("faultspace.numeric.plant.steps.elsewhere.doubts", return_value=Doubts((), ())):
+        with patch("faultspace.numeric.plant.steps.explaining.doubts", return_value=Doubts((), ())):
             without += identify(y, u, order=3, healthy=300).moved
     assert without
 

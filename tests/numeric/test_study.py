@@ -12,26 +12,20 @@ import numpy as np
 import pytest
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.method.space.distances import containment_distance, subspace_distance
+from faultspace.numeric.method.space.distances import containment_distance, subspace_distance, two_sided_error
 from faultspace.numeric.study import runs
 from faultspace.numeric.study.groups import by_phase, by_zeros, median_interval
-from faultspace.numeric.study.paper_example import (
-    behaviour_ranks,
-    exact_fault_space,
-    example_v,
-    lines,
-    published_ranks,
-    recorded_errors,
-    tally,
-)
+from faultspace.numeric.study.paper_example import behaviour_ranks, exact_fault_space, example_v, published_ranks
 from faultspace.numeric.study.paper_example import system as example_system
 from faultspace.numeric.study.random_systems import pencil_zeros, study_system
 from faultspace.numeric.study.runs import NOISE_GAIN, response, study_run
 from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, STUDIES, monte_carlo
-from faultspace.numeric.study.study_cases import LIKELIHOOD, PAPER, Case, Errors
+from faultspace.numeric.study.study_cases import LIKELIHOOD, PAPER, Case, Errors, published_case
 from tests.numeric.published_error import author_error
 from tests.thorough import THOROUGH
 
+# [Fhat; Ghat] in the author's notebook, as printed: with the true system, and with the identified one brought to the true state basis.
+RECORDED = ((0, 0, 0, -0.9440, -0.3300), (0.9378, 0.3278, 0.1146, 0, 0)), ((0, 0, 0, -0.9440, -0.3300), (0.9332, 0.3379, 0.1223, 0, 0))
 # Medians of the author's own run, 25 systems for each number of zeros, in percent, read off the plot that his notebook keeps.
 RECORDED_MEDIANS = {1: 2.3, 2: 1.7, 3: 0.9}
 
@@ -134,8 +128,7 @@ def test_vacuous_cases_are_those_without_a_null_row_and_only_those() -> None:
 
 def test_all_studies_see_the_same_systems_and_beat_a_random_subspace() -> None:
     studies = [monte_carlo(plan, systems=8 if THOROUGH else 4, seed=2, jobs=1) for plan in STUDIES.values()]
-    # Stacks of systems are those of one system after the other up to rounding.
-    assert len({tuple(tuple(np.round(case.zeros, 9)) for case in study.cases) for study in studies}) == 1
+    assert len({tuple(case.zeros for case in study.cases) for study in studies}) == 1
     for study in studies:
         found = [study.error(case) for case in study.cases if not case.vacuous]
         random = [study.random_error(case) for case in study.cases if not case.vacuous]
@@ -196,6 +189,13 @@ def test_bad_numbers_are_refused(wrong: dict[str, Any]) -> None:
         monte_carlo(PUBLISHED, **wrong)
 
 
+def test_too_few_samples_are_a_refusal_of_the_estimator_and_one_sample_of_the_study() -> None:
+    failure = published_case(1, np.random.SeedSequence(1), 4).estimates[PAPER].failure
+    assert failure == "r: got 4 samples; 5 block rows need 5 or more"
+    with pytest.raises(InvalidData, match=r"samples: got 1; .* needs 2 or more"):
+        monte_carlo(PUBLISHED, systems=4, samples=1)
+
+
 def test_only_up_to_three_zeros_are_built() -> None:
     with pytest.raises(InvalidData, match="0, 1, 2 or 3"):
         study_system(4, 0)
@@ -224,30 +224,21 @@ def test_figures_are_drawn_on_the_axes_given(tmp_path: Path) -> None:
     assert picture.startswith(b"\x89PNG") and len(picture) > 10000
 
 
-def test_the_example_tells_where_its_ranks_differ_from_theory(published_run: list[str]) -> None:
-    printed = "\n".join(published_run)
-    assert "theory, rank [O_s T_s]" in printed
-    first, second = published_ranks(1907)
-    assert (first, second) == (6, 7)
-    assert "rank R_5 is 6 where 7 is true, rank R_6 is 7 where 8 is true" in printed
-    assert "default ranks equal theory at every window" in printed
-
-
-@pytest.fixture(scope="module")
-def published_run() -> list[str]:
-    """Return the example's own words for its default seed."""
+def test_the_example_differs_from_theory_where_it_is_identified() -> None:
+    assert published_ranks(1907) == (6, 7)
     run = example_v()
     assert run.theory == (2, 4, 5, 6, 7, 8)
     assert run.default_true == run.theory
-    assert run.window_gap == run.published_gap == 1
+    assert run.threshold_identified[4:] == (6, 7) != run.theory[4:] and run.window_gap == 1
     assert run.dimension_true.n_v == 1
     assert run.fault_space_dimension == 2
     assert run.angle_true < 1e-9 < run.angle_identified < 0.1
-    return list(lines(run))
 
 
 def test_the_authors_recorded_fault_spaces_are_those_of_the_example() -> None:
-    true, identified = recorded_errors()
+    model, F, G = example_system()
+    Z = exact_fault_space(model.A, F, model.C, G)
+    true, identified = (two_sided_error(Z, np.array(columns).T) for columns in RECORDED)
     assert true < 5e-5  # four digits
     found = [example_v(seed).angle_published for seed in range(8)]
     # His is one draw of a quantity that spans a decade: of 50 runs, 95 % lie between a third and three and a half times their median, and
@@ -259,11 +250,9 @@ def test_the_authors_recorded_fault_spaces_are_those_of_the_example() -> None:
     assert (7, 8) in pairs
 
 
-def test_the_examples_ranks_are_counted_over_runs() -> None:
-    counted = list(tally(4))
-    assert sum(int(line.split(" in ")[1].split()[0]) for line in counted[1:]) == 4
+def test_the_example_is_not_controllable_from_the_fault() -> None:
     model, F, _ = example_system()
-    assert np.linalg.matrix_rank(np.hstack([F, model.A @ F])) == 1  # not controllable from the fault
+    assert np.linalg.matrix_rank(np.hstack([F, model.A @ F])) == 1
 
 
 def test_the_noise_gain_is_that_of_the_filter() -> None:

@@ -68,12 +68,11 @@ def test_a_record_takes_less_than_its_bound(name: str, systems: int, samples: in
 
 
 def test_seeds_are_those_that_numpy_spawns() -> None:
-    stacks = studies._Stacks(PUBLISHED, 7, 100, [1, 4, 5, 9, 11], 2)
+    cases = studies._Cases(PUBLISHED, 7, 100, indices := [1, 4, 5, 9, 11])
     spawned = np.random.SeedSequence(7).spawn(12)
-    assert len(stacks) == 3
-    for number, indices in enumerate([[1, 4], [5, 9], [11]]):
-        _, numbered, samples = stacks[number]
-        assert samples == 100 and [index for index, _ in numbered] == indices
-        for index, seed in numbered:
-            assert np.array_equal(seed.generate_state(4), spawned[index].generate_state(4))
-            assert np.array_equal(seed.spawn(2)[1].generate_state(4), spawned[index].spawn(2)[1].generate_state(4))
+    assert len(cases) == 5
+    for number, wanted in enumerate(indices):
+        _, index, seed, samples = cases[number]
+        assert (index, samples) == (wanted, 100)
+        assert np.array_equal(seed.generate_state(4), spawned[index].generate_state(4))
+        assert np.array_equal(seed.spawn(2)[1].generate_state(4), spawned[index].spawn(2)[1].generate_state(4))

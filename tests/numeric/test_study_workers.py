@@ -7,7 +7,6 @@ import signal
 import socket
 import subprocess
 import sys
-from collections.abc import Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
 
@@ -18,9 +17,8 @@ from faultspace.base import workers as base_workers
 from faultspace.base.errors import InvalidData
 from faultspace.base.tasks import Died, as_they_come
 from faultspace.numeric.study.groups import Plan
-from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, Study, monte_carlo
-from faultspace.numeric.study.study_cases import Case, Numbered, one_by_one, published_case
-from faultspace.numeric.study.study_workers import done_by
+from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, Study, done_by, monte_carlo
+from faultspace.numeric.study.study_cases import Case, published_case
 
 
 def squared(number: int) -> int:
@@ -42,11 +40,6 @@ def test_cases_do_not_depend_on_the_number_of_workers_nor_on_how_many_follow() -
     plan = Plan(**{**vars(CORRECTED), "worth": 1})
     alone, together = (monte_carlo(plan, systems=6, seed=4, jobs=jobs, samples=300) for jobs in (1, 2))
     assert alone.cases == together.cases
-    # As published, systems are taken in stacks: neither the stacks nor the processes show.
-    published = (
-        monte_carlo(replace(PUBLISHED, stack=k, worth=4), systems=14, seed=4, jobs=jobs, samples=300) for k, jobs in ((4, 2), (9, 1))
-    )
-    assert next(published).cases == next(published).cases
     shorter = monte_carlo(plan, systems=5, seed=4, jobs=1, samples=300)
     assert shorter.cases == alone.cases[:5]
     assert monte_carlo(plan, systems=5, seed=5, jobs=1, samples=300).cases != shorter.cases
@@ -163,16 +156,15 @@ def test_of_tasks_that_a_cluster_does_together_only_the_one_that_kills_is_given_
     assert found == {number: k * k for number, (k, _) in enumerate(tasks) if k != 2}
 
 
-def kills(numbered: Sequence[Numbered], samples: int) -> list[Case]:
-    if any(index == 2 for index, _ in numbered):
+def kills(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
+    if index == 2:
         os.kill(os.getpid(), signal.SIGKILL)
-    return one_by_one(published_case, numbered, samples)
+    return published_case(index, seed, samples)
 
 
 @pytest.mark.slow
-def test_of_a_stack_that_kills_its_process_only_the_case_at_fault_fails() -> None:
-    plan = replace(PUBLISHED, cases=kills, stack=4, worth=1)
-    study = monte_carlo(plan, systems=6, seed=4, jobs=2, samples=30)
+def test_only_a_case_that_kills_its_process_fails() -> None:
+    study = monte_carlo(replace(PUBLISHED, case=kills, worth=1), systems=6, seed=4, jobs=2, samples=30)
     assert [each.index for each in study.failed] == [2]
     whole = monte_carlo(PUBLISHED, systems=6, seed=4, jobs=1, samples=30).cases
     assert study.cases == whole[:2] + whole[3:]

@@ -25,7 +25,7 @@ from faultspace.base.threads import one_thread
 from faultspace.numeric import StateSpaceModel, count_faults, fault_dimension, pi_moesp
 from faultspace.numeric.plant.monitor import monitoring
 from faultspace.numeric.plant.report.result_files import of_monitor
-from faultspace.numeric.study.study_workers import done_by
+from faultspace.numeric.study.studies import done_by
 
 NUMERIC: Any = importlib.import_module("faultspace.numeric")
 # They read and hold data, and multiply no matrices.
@@ -47,7 +47,7 @@ from faultspace.numeric import arx_reduction, fault_dimension
 from faultspace.numeric.study.study_cases import identified_case
 from faultspace.numeric.study.runs import study_run
 from faultspace.numeric.study.random_systems import study_system
-from faultspace.numeric.study.study_workers import done_by
+from faultspace.numeric.study.studies import done_by
 
 run = study_run(study_system(2, np.random.SeedSequence(5)), 7, level=0.01, samples=300)
 answers = [fs.identify(run.y, run.u, order=5).to_json()]

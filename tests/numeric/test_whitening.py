@@ -9,7 +9,7 @@ import pytest
 
 from faultspace.base.arrays import Array
 from faultspace.numeric import StateSpaceModel
-from faultspace.numeric.method.ranks.triangles import stacked_triangle
+from faultspace.numeric.method.ranks.sample_windows import stacked_triangle
 from faultspace.numeric.plant.healthy.healthy_model import STRETCH, lagged, spectra
 from faultspace.numeric.plant.monitor.innovation_form import FOLDS, innovation_form
 

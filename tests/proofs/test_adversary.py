@@ -83,7 +83,7 @@ def test_where_no_zero_is_rational_two_exact_points_of_opposite_sign_prove_one()
 def test_no_file_of_counterexamples_is_read() -> None:
     folder = Path(engine.__file__).parent
     sources = "".join(path.read_text("utf-8") for path in folder.glob("*.py"))
-    assert "kept_experiments" not in sources and "counterexamples/" not in sources
+    assert "refuting_experiments" not in sources and "counterexamples/" not in sources
 
 
 QUICK = (

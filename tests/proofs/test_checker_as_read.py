@@ -37,13 +37,17 @@ def forged(file: Path) -> None:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Provides a folder with the package, the checker's files beside it, and a certificate that is none; all compiled files are forged."""
+    """Provides a folder with the package, the checker's files beside it, and a certificate that is none; all compiled files are forged, and
+    in the package there is a forged folder beside each file."""
     place = tmp_path_factory.mktemp("forged")
     package = shutil.copytree(Path(faultspace.__file__).parent, place / "faultspace", ignore=shutil.ignore_patterns("__pycache__", "*.v"))
     for name in FILES:
         shutil.copy(package / "proofs" / "trust" / f"{name}.py", place)
         forged(place / f"{name}.py")
-        forged(package / "proofs" / "trust" / f"{name}.py")
+        source = package / "proofs" / "trust" / f"{name}.py"
+        forged(source)
+        source.with_suffix("").mkdir()  # a package, which Python prefers to the file beside it
+        source.with_suffix("").joinpath("__init__.py").write_text(source.read_text("utf-8") + FORGED, "utf-8")
     (place / "false.json").write_text(json.dumps(FALSE), "utf-8")
     return place
 

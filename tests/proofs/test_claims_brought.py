@@ -357,6 +357,21 @@ def test_a_file_is_read() -> None:
     assert second.expected == {"Q": Answered.NOT_REFUTED, "GF(2)": Answered.NOT_REFUTED}
 
 
+def test_an_answer_says_what_was_decided_whatever_it_is_called() -> None:
+    """ "Observable" was all that was told of what is PROVED here, and of observable systems is false."""
+    called = {"that": "m == 0 and left_invertible", "label": "observable"}
+    for hypothesis, words in (called, "observable: m == 0 and left_invertible"), ("observable", "observable"):
+        (answer,) = fs.claim("n_z == zeta + m", hypotheses=[hypothesis], box={"total": 3}, ablation=False).answers  # type: ignore[list-item]
+        assert answer.verdict == (Answered.PROVED if hypothesis is called else Answered.REFUTED)
+        assert ("hypotheses", words) in answer.sheet()
+
+    def observable(system: Any) -> bool:
+        return bool(system.m == 0)
+
+    (answer,) = fs.claim("lag <= n", hypotheses=[observable], box={"total": 3}, ablation=False).answers
+    assert ("hypotheses", "observable, a predicate of Python") in answer.sheet()
+
+
 @pytest.mark.parametrize(("text", "words"), BAD)
 def test_what_is_wrong_in_a_file_is_told_with_its_line(text: str, words: str) -> None:
     with pytest.raises(InvalidInput) as error:

@@ -240,7 +240,7 @@ def test_kinds_of_the_same_items_are_made_together() -> None:
             raise ValueError(f"{item} is odd")
         return [item]
 
-    (packed,) = made([kind("twice", lambda x: [x, 2 * x]), kind("odd", odd), kind("none", lambda x: [])], None, 1, silent)
+    (packed,) = made([kind("twice", lambda x: [x, 2 * x]), kind("odd", odd), kind("none", lambda x: [])], None, 1, silent, "")
     found = loaded(packed)
     assert drawn == [1] and found["twice"] == (0, 0, 1, 2, 2, 4, 3, 6, 4, 8) and found["none"] == ()
     assert str(found["odd"]) == "1 is odd"

@@ -78,6 +78,10 @@ ASSUMED = [
     "Time Notation a := b.", "Time Definition a := 0.", "Local Definition a := 0.", "Let Fixpoint f (n : nat) := 0.",
     "Record a := A { b :> nat }.", "Section s. Variable f :> nat -> bool. End s.", "Section s. Variables (f g :> nat -> bool). End s.",
     "Section s.", "Module m.", "End s.", "Goal False.", "Eval compute in 0.", "Check I.", "Print Assumptions a.", "Existing Class a.",
+    "Record a := A { b:> nat }.", "Record a := A { #[canonical=no] b :> nat }.", "Section s. Variables (f g:> nat -> bool). End s.",
+    'Fixpoint f (n : nat) := n where "a <= b" := (f a b).', 'Fixpoint f (n : nat) := n where"a <= b" := (f a b).',
+    'Local Notation "a =. b" := (a = b). Definition y := 0 =. Section s. Variable bad : False. Definition z := 0 =. End s.',
+    "Notation \"'Qed.' a\" := a.",
 ]  # fmt: skip
 # Ways to put a sentence where a reading by lines, or one that is not Rocq's, does not look for it.
 HIDINGS = [
@@ -86,7 +90,9 @@ HIDINGS = [
     'Definition a := "(*". {} Definition b := "*)".', "Definition a := 0.(* *){}", "Definition a := 0\n.\n\n {}", "Definition a := 0.\t{}",
     "Lemma a : True. Proof.\n- exact I. {} Qed.", "Lemma a : True. Proof. all: exact I. 1: {} Qed.", "Lemma a : True. Proof. {{ {} }} Qed.",
     "Lemma a : True. Proof. exact I... {} Qed.", "Definition a := 0.. {}", "Definition a := 0.\x0c{}", "Definition a := 0.\xa0{}",
-    "Definition a := `(* 0. {} (* *).", "Definition a := 0. {} (* no end", 'Definition a := 0. {} "no end', "Definition a := 0.\v{}",
+    "Lemma a : True. Proof. refine ?[x]. [x]: {{ {} Qed.", "Lemma a : True. Proof. refine ?[x]. - [ x ] :{{ {} Qed.",
+    "Lemma a : True. Proof. exact I. 1: {{ {} Qed.", "Definition a := `(* 0. {} (* *).",
+    "Definition a := 0. {} (* no end", 'Definition a := 0. {} "no end', "Definition a := 0.\v{}",
 ]  # fmt: skip
 
 

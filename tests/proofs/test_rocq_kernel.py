@@ -7,15 +7,20 @@ import os
 import shutil
 import stat
 import subprocess
+from collections.abc import Callable
 from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
 
 from faultspace.cli.consoles import answers
-from faultspace.cli.verdict_summary import print_machine
+from faultspace.cli.verdict_tables import print_machine
 from faultspace.proofs.rocq import build as rocq_build
-from faultspace.proofs.rocq.recheck import recheck, second_check
+from faultspace.proofs.rocq import recheck as rocq_recheck
+from faultspace.proofs.rocq.recheck import second_check
+from faultspace.proofs.rocq.recompute import recomputed
+from faultspace.proofs.rocq.sources import sources
+from faultspace.proofs.rocq.theorems import check
 from faultspace.proofs.verdict.ledger import load
 from faultspace.proofs.verdict.verdicts import ClaimResult, Report
 
@@ -162,7 +167,8 @@ def test_only_what_the_kernel_computes_with_may_be_listed(
 def test_recheck_believes_nothing_that_was_compiled_before(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It does not believe even a forgery that nothing else notices: compiled files of another theory, with their digests, under our
     sources."""
-    monkeypatch.setattr(rocq_build, "sources", lambda: TINY)
+    monkeypatch.setattr(rocq_recheck, "sources", lambda: TINY)
+    monkeypatch.setattr(rocq_recheck, "held", lambda texts: None)
     place = rocq_build.compiled_theory(texts=TINY)
     true = (place / "Second.vo").read_bytes()
     forged = rocq_build.compiled_theory(texts=TINY | {"Second.v": TINY["Second.v"].replace("True", "0 = 0").replace("first", "eq_refl")})
@@ -171,8 +177,28 @@ def test_recheck_believes_nothing_that_was_compiled_before(cache: Path, monkeypa
     kept = place.with_suffix(".0123456789ab.json")
     kept.write_text("{}", "utf-8")
     assert rocq_build.compiled_theory(texts=TINY) == place and (place / "Second.vo").read_bytes() != true
-    assert "compiled anew, and read again by coqchk" in recheck()
+    assert "compiled anew, and read again by coqchk" in rocq_recheck.recheck()
     assert (place / "Second.vo").read_bytes() == true and not kept.exists()
+
+
+class _Judged(Exception):
+    """Raised where sources are about to be compiled, with these."""
+
+
+@pytest.mark.parametrize(
+    "ask", [lambda: check(["lag_at_most_n"]), lambda: recomputed([]), lambda: rocq_recheck.recheck()], ids=["verify", "check", "recheck"]
+)
+def test_what_is_compiled_is_what_was_judged(monkeypatch: pytest.MonkeyPatch, ask: Callable[[], object]) -> None:
+    """Whoever changes a source after the locks were compared has it compiled in no way."""
+    true = sources()
+
+    def stopped(texts: dict[str, str]) -> Path:
+        raise _Judged(texts == true)
+
+    monkeypatch.setattr(rocq_build, "_place", stopped)
+    monkeypatch.setattr(rocq_build, "sources", lambda: TINY)
+    with pytest.raises(_Judged, match="True"):
+        ask()
 
 
 @pytest.mark.parametrize("spoil", ["source", "more", "folder", "above", "link"])
@@ -287,6 +313,7 @@ def test_coqc_is_not_told_where_to_load_from(cache: Path, tmp_path: Path, monkey
         said = (tmp_path / f"{program}.said").read_text("utf-8")
         names = {line.partition("=")[0] for line in said.splitlines()} - {"_", "PWD", "SHLVL", "OLDPWD"}
         assert names <= {*rocq_build.GIVEN, "HOME", "TMPDIR", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "OCAMLRUNPARAM"} and "misled" not in said
+        assert "HOME" in names, "else they load from .local/share/coq of the folder where they are started"
 
 
 @pytest.mark.skipif(rocq_build.found() is None, reason=rocq_build.INSTALL)

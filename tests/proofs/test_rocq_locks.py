@@ -6,12 +6,16 @@ import json
 import re
 from collections.abc import Callable
 from dataclasses import replace
+from importlib import resources
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from docs.tools.pages import statements
 from faultspace.proofs import verification
+from faultspace.proofs.brought import claiming
+from faultspace.proofs.brought import theorems as proofs_in_the_language
 from faultspace.proofs.rocq import locks as rocq_locks
 from faultspace.proofs.rocq.build import BrokenTheory, NotProved, compile_file
 from faultspace.proofs.rocq.locks import held, kept, made, written
@@ -25,6 +29,7 @@ from tests.proofs.test_rocq_headlines import CHANGES
 TEXTS = sources()
 STATEMENTS = read(TEXTS)
 LOCKED = kept()
+NOT_AS_READ = "what stands under {} in the ledger, or in the language of claims, is not what was read with the theorems"
 WORDS = sorted({word.key: word for words in STATEMENTS.words.values() for word in words.values()}.items())
 
 
@@ -175,8 +180,44 @@ def test_a_reading_is_locked_with_its_theorems(monkeypatch: pytest.MonkeyPatch) 
                 ledger = [forged if kept is claim else kept for kept in claims]
                 monkeypatch.setattr(rocq_locks, "load", lambda ledger=ledger: ledger)
                 said = [*rocq_locks.differences(LOCKED, replace(LOCKED, readings=made({}).readings))]
-                refusal = f"the ledger's reading {claim.id}.{one.id} is not the one that was read with its theorems"
-                assert said == ([] if spoilt == one else [refusal])
+                assert said == ([] if spoilt == one else [NOT_AS_READ.format(f"{claim.id}.{one.id}")])
+
+
+def test_what_makes_a_claims_verdict_of_its_readings_is_locked(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A claim with alternatives was AMENDED, as expected, where the ledger said that these are parts that all must hold."""
+    claims = load()
+    for claim in claims:
+        changes = {"in_parts": not claim.in_parts}, {"reference": "ours"}, {"expected": "IDENTITY"}, {"uses": (claim.id,)}
+        for spoilt in (replace(claim, **change) for change in changes):
+            ledger = [spoilt if kept is claim else kept for kept in claims]
+            monkeypatch.setattr(rocq_locks, "load", lambda ledger=ledger: ledger)
+            said = [*rocq_locks.differences(LOCKED, replace(LOCKED, readings=made({}).readings))]
+            assert said == ([] if spoilt == claim else [NOT_AS_READ.format(claim.id)])
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "name"),
+    [
+        ("theorems.toml", 'conclusion = "lag <= n"', 'conclusion = "zeta <= 50"', "theorems.toml: lag-at-most-n"),
+        ("theorems.toml", 'names = ["proposition_3"]', 'names = ["lag_at_most_n"]', "theorems.toml: growth"),
+        ("ledger.toml", "for s in windows(max(delay_known, n))", "for s in windows(n + 99)", "ledger.toml: assumption-4--n-known"),
+    ],
+)
+def test_what_the_language_says_of_theorems_is_locked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, file: str, old: str, new: str, name: str
+) -> None:
+    """`claim` took what was written there for what Rocq has proved, and `verify` what it decided there for the reading."""
+    for package, path, _ in rocq_locks.IN_THE_LANGUAGE:
+        (place := tmp_path.joinpath(package, *path)).parent.mkdir(parents=True)
+        text = resources.files(package).joinpath(*path).read_text("utf-8")
+        place.write_text(text.replace(old, new, 1) if path[-1] == file else text, "utf-8")
+        assert path[-1] != file or old in text
+    monkeypatch.setattr(rocq_locks, "resources", SimpleNamespace(files=lambda package: tmp_path / package))
+    with pytest.raises(NotProved, match=re.escape(NOT_AS_READ.format(name))):
+        held(TEXTS)
+    monkeypatch.setattr(proofs_in_the_language, "_locks", proofs_in_the_language._locks.__wrapped__)
+    with pytest.raises(NotProved):
+        claiming.claim("zeta <= n", box={"total": 3}, ablation=False)
 
 
 @pytest.mark.parametrize("theorems", [True, False])
@@ -192,7 +233,7 @@ def test_a_run_is_in_error_where_a_reading_is_not_as_locked(monkeypatch: pytest.
     report = verification.verify("example-v", jobs=1)
     assert not report.as_expected
     assert {one.outcome.verdict for one in report.claims[0].readings} == {Verdict.ERROR}
-    assert "the ledger's reading example-v." in report.machine and "is not the one that was read" in report.machine
+    assert NOT_AS_READ.format(f"example-v.{first.id}") in report.machine
 
 
 def test_comments_and_line_breaks_change_nothing() -> None:

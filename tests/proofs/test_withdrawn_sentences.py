@@ -8,6 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import sympy
 
@@ -22,7 +23,7 @@ ROOT = Path(__file__).parents[2]
 PAPERS, LITERATURE = "faultspace/examples/papers.toml", "faultspace/examples/literature.toml"
 CLAIMS, CHOICES = "faultspace/examples/claims.toml", "faultspace/examples/choices.toml"
 GLOSSARY, CONCEPTS, CONSISTENCY = "docs/glossary.md", "docs/concepts.md", "docs/consistency.md"
-README, SENTENCES = "README.md", "faultspace/review/sentences.toml"
+README, SENTENCES, SPEED = "README.md", "faultspace/review/sentences.toml", "docs/speed.md"
 
 UNMOVED: dict[str, Any] = {"A": [[0]], "F": [[0]], "C": [[1]], "G": [[0]]}  # a fault that nothing feels
 
@@ -104,6 +105,17 @@ SYSTEMS: list[tuple[str, str, dict[str, Any], dict[str, Any]]] = [
         {"A": [[2]], "F": [[1]], "C": [[1]], "G": [[1]]},
         {"invariant_zero_polynomial": ["-1", "1"]},
     ),
+    (
+        "whose zeros hold all decoupling zeros",  # the system zeros do; -4, which no input moves, is no invariant zero
+        LITERATURE,
+        {
+            "A": [[(1, 1, 3, -4, -1, 3)[i] if i == j else 0 for j in range(6)] for i in range(6)],
+            "F": [[0, -1], [-1, 0], [1, -1], [0, 0], [0, 1], [-1, -1]],
+            "C": [[1, 0, 0, 1, 0, 0], [0, 1, 0, 1, 0, 1], [0, 0, 1, 0, 0, 1]],
+            "G": [[0, 0]] * 3,
+        },
+        {"invariant_zero_polynomial": ["-2", "-1", "1"], "left_invertible": True},
+    ),
 ]
 
 
@@ -128,6 +140,15 @@ EXPERIMENTS: list[tuple[str, tuple[str, ...], dict[str, Any], dict[str, Any]]] =
             "v_filter": {"num": [[["0", "1"]]], "den": ["1", "-3/4"]},
         },
         {"limit_rank": 3, "A_characteristic_polynomial": None},
+    ),
+    (
+        "past outputs as instruments stay biased whatever N is",  # not under a white fault
+        (SPEED,),
+        {
+            **{"A": [["1/2"]], "B": [["1"]], "C": [["1"]], "D": [["0"]], "F": [["1"]], "G": [["1"]]},
+            **{"s": 2, "past": 2, "u_filter": [[["1", "0"]]], "v_filter": [[["0", "1"]]]},
+        },
+        {"equals_observability_range": True, "A_characteristic_polynomial": ["-1/2", "1"]},
     ),
     (
         "One sign only: with white u the limit lies in the range",
@@ -155,7 +176,7 @@ def test_what_an_experiment_refutes_is_not_said(
     words: str, files: tuple[str, ...], experiment: dict[str, Any], facts: dict[str, Any]
 ) -> None:
     found = fs.limit(experiment).to_json()
-    outputs = found["past_outputs"] if files[0] == README else found
+    outputs = found["past_outputs"] if files[0] in (README, SPEED) else found
     assert {key: outputs[key] for key in facts} == facts
     assert not [file for file in files if words in text(file)]
 
@@ -215,7 +236,29 @@ def test_a_claim_is_amended_only_where_every_reading_of_it_or_of_a_part_is_refut
     }
 
 
+def test_theorems_are_cited_with_what_they_suppose() -> None:
+    """The bound on singular values is of independent entries, and a Hankel matrix has others; not every signal has time averages."""
+    ratios = []
+    for seed in range(10):
+        errors = np.random.default_rng(seed).standard_normal(1000)
+        windows = np.lib.stride_tricks.sliding_window_view(errors, 200)
+        ratios.append(np.linalg.norm(windows, 2) / sum(np.sqrt(windows.shape)))
+    assert max(ratios) > 1.1 > np.linalg.norm(np.random.default_rng(1).standard_normal((801, 200)), 2) / sum(np.sqrt((801, 200)))
+    assert "white noise of the estimated level could reach" not in text("numeric/method/ranks/rank_gap.py")
+    assert "singular values of E lie within" not in text("numeric/method/ranks/hankel_ranks.py")
+
+    power = np.array([k.bit_length() % 2 for k in range(1, 2**16)])  # its mean up to 2^j has no limit: 1/3 and 2/3 in turn
+    means = np.cumsum(power) / np.arange(1, 2**16)
+    assert abs(means[2**14 - 2] - means[2**15 - 2]) > 0.3
+    assert "where it exists: quasi-stationary signals in Ljung's sense" not in text(CONSISTENCY)
+
+    assert "as long as lags^3 / N stays bounded [LR85]" not in text("numeric/method/model/arx_windows.py"), "it has to vanish"
+    assert "[VV07] calls R.T the L" not in text("numeric/method/model/sequential_qr.py"), "it has an RQ factorisation"
+    assert "[K80] 6.3" not in text(LITERATURE), "polynomial matrices: indices of observability stand elsewhere"
+
+
 OVERSAID = (
+    *("the review calls", "the review's section", "the review's sentence"),  # the caption that it quotes does, and the paper has sections
     *(" as printed", "as the paper has it", "every packaged", "no packaged tool", "ranks 6 and 7"),
     *("every claim of the paper", "for all systems and dimensions"),
 )
@@ -225,7 +268,8 @@ OVERSAID = (
 def test_words_that_say_more_than_is_known_are_gone(words: str) -> None:
     """The paper's text was not at hand, tools that were not measured have no past outputs, and the review speaks of no ranks 6 and 7."""
     folders = ["docs", "docs/start", "docs/tutorials", "faultspace", "faultspace/cli", "faultspace/review", "faultspace/review/templates"]
-    folders += ["faultspace/review/view", "faultspace/examples", "proofs/verdict", "proofs/claims", "numeric/method/model", "exact/limits"]
+    folders += ["faultspace/review/view", "faultspace/examples", "proofs/verdict", "proofs/claims", "proofs/evidence"]
+    folders += ["numeric/method/model", "exact/limits"]
     pages = [page for folder in folders for page in (ROOT / folder).iterdir() if page.suffix in (".md", ".py", ".toml", ".html")]
     shown = [ROOT / README, *(page for page in pages if page.name != "history.md")]
     assert len(shown) > 100
@@ -265,3 +309,40 @@ def test_a_claim_that_is_proved_is_not_refuted_either(tmp_path: Path, capsys: py
     assert main(["claim", str(file), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["claims"][0]["verdict"] == "PROVED"
     assert "PROVED serving for NOT REFUTED" in text("docs/your-claims.md")
+
+
+def test_tools_and_limits_are_told_as_they_are() -> None:
+    methods = (ROOT / "benchmarks/identification_methods.py").read_text("utf-8")
+    assert re.search(r'Method\("fault-id", .*"past inputs"', methods), "the author's program was measured, and has no past outputs"
+    assert not [file for file in (README, SENTENCES, CONSISTENCY, "proofs/verdict/ledger.toml") if "every subspace tool" in text(file)]
+    experiment = json.loads((ROOT / "faultspace/examples/independent-fault.json").read_text("utf-8"))
+    assert "L" not in fs.limit(experiment).to_json() and "`faultspace limit` prints it" not in text(CONSISTENCY)
+
+
+def test_what_the_audit_says_of_its_checks() -> None:
+    from faultspace.numeric.audit.checks.catalogue import all_checks
+    from faultspace.numeric.audit.checks.growth import LENGTHS
+
+    assert any(check.claim is None for check in all_checks()) and "each check names the claim it rests on" not in text("docs/your-code.md")
+    assert f"Records have up to {2 * LENGTHS[1]} samples" in text("numeric/audit/PROTOCOL.md"), "time is looked at there where it leaps"
+
+
+def test_windows_that_are_too_short_are_not_taken_for_noise() -> None:
+    """The answer is that of windows of 2 and 3 samples, by ranks: as many faults as outputs on one vector, the gap at 1 on another."""
+    from faultspace.numeric.audit import reference
+
+    class Short:
+        @staticmethod
+        def fault_dimension(r: Any) -> int:
+            _, two, three = reference.window_ranks(r, 3)
+            return three - two
+
+    words = [record.explanation for record in fs.audit(Short, only=["fault-dimension"]).failed]
+    assert any(words) and all("too short" in one for one in words if "as outputs" in one or "R_2" in one)
+    assert "Nothing of that is guessed" not in text("numeric/audit/README.md")
+
+
+def test_fields_of_claims_are_prime() -> None:
+    with pytest.raises(fs.errors.InvalidInput, match="prime q up to 97"):
+        fs.claim("lag <= n", fields=["GF(4)"])
+    assert "may name finite fields" not in text("docs/your-claims.md")

@@ -18,8 +18,8 @@ from ...numeric.method.model.asymptotic_likelihood import arx_reduction
 from ...numeric.method.model.models import StateSpaceModel
 from ...numeric.method.model.past_inputs import pi_moesp
 from ...numeric.method.model.past_outputs import po_moesp
-from ...numeric.study.bound.driving_spectra import Spectra, through, total
-from ...numeric.study.bound.information_bound import COUNT, cramer_rao, relative_error
+from ...numeric.study.driving_spectra import Spectra, through, total
+from ...numeric.study.information_bound import COUNT, cramer_rao, relative_error
 from .experiments import floats, model, packaged, record, spectrum
 
 EXPERIMENT, SAMPLES, RECORDS, BLOCK_ROWS = "independent-fault", 1000, 20, 10

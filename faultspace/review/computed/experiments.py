@@ -21,7 +21,7 @@ from ...exact.algebra.matrices import Matrix, beside
 from ...exact.limits.experiments import Experiment, read_experiment
 from ...exact.limits.filters import Filter
 from ...numeric.method.model.models import StateSpaceModel
-from ...numeric.study.bound.driving_spectra import Spectrum
+from ...numeric.study.driving_spectra import Spectrum
 
 SETTLING = 500  # samples before a record begins: what is left of x(0) = 0 in these experiments is below rounding
 

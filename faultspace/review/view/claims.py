@@ -21,7 +21,7 @@ from ...proofs.rocq.sources import paths
 from ...proofs.verdict.verdicts import Verdict
 from ..drawing.graph import Node
 from ..records import Records
-from .links import anchor, cited
+from .words import anchor, cited
 
 LEVELS = ("PROVED", "IDENTITY", "CERTIFIED")
 SHORT = 12

@@ -22,8 +22,7 @@ from ..drawing.graph import graph
 from ..records import Records
 from .alarms import Alarm, agrees, alarms
 from .claims import SHORT, CertificateView, ClaimView, TheoremView, certificate, claims, nodes, theorems
-from .links import Link, anchor, cited, prose
-from .words import place
+from .words import Link, anchor, cited, place, prose
 
 
 @dataclass(frozen=True)

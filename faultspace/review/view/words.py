@@ -4,12 +4,20 @@ FORMS       a word of the glossary -> how it stands in a sentence
 place       the name that a place about this word has in an address
 first_use   where a text uses a word first
 linked      a section of the page, with these links
+anchor      a name that an address can hold
+Link        a text with the place it leads to
+source      the keys such as [G25] of a text, as links to the section of sources
+prose       Markdown of ours as HTML
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Container, Mapping
+from dataclasses import dataclass
+
+from markdown_it import MarkdownIt
+from markupsafe import Markup, escape
 
 # Words of every day are listed as far as they mean on our pages what the glossary says: a pencil is also what one writes with.
 FORMS: Mapping[str, str] = {
@@ -99,3 +107,37 @@ def _of_text(text: str, left: set[str]) -> str:
             left.discard(word)
             done = end
     return "".join([*pieces, text[done:]])
+
+
+KEY = re.compile(r"\[([A-Z][A-Za-z]{0,3}[0-9]{2})\]")
+RELATIVE = re.compile(r"\[([^\]]+)\]\((?!https?:|#)[^)]*\)")  # to a file of the tree, which a page that stands alone does not have
+_MARKDOWN = MarkdownIt("commonmark", {"html": False})
+
+
+@dataclass(frozen=True)
+class Link:
+    """`href` begins with # where it leads to a place in the page."""
+
+    text: str
+    href: str
+
+
+def anchor(kind: str, name: str) -> str:
+    """Return the name of a place."""
+    return f"{kind}-{re.sub(r'[^A-Za-z0-9_.-]+', '-', name)}"
+
+
+def cited(text: str, keys: Container[str]) -> Markup:
+    """Return the text with those keys as links that have an entry among the sources."""
+
+    def link(found: re.Match[str]) -> str:
+        key = found.group(1)
+        return f'<a href="#{anchor("source", key)}">[{key}]</a>' if key in keys else found.group()
+
+    return Markup(KEY.sub(link, str(escape(text))))
+
+
+def prose(text: str) -> Markup:
+    """Return one paragraph without the paragraph's own tags; links into the tree are left as their words, CHANGELOG is the section here."""
+    text = RELATIVE.sub(lambda found: "[CHANGELOG](#withdrawn)" if found.group(1) == "CHANGELOG" else found.group(1), text)
+    return Markup(_MARKDOWN.renderInline(text))

@@ -23,7 +23,7 @@ from faultspace.exact.structure.signals import hankel, simulate
 from faultspace.exact.system.systems import ResidualSystem
 
 from ...method.signal.reconstruction import reconstruct_fault
-from ...study.rounding.residual_conditioning import fault_signal_error
+from ...study.residual_conditioning import fault_signal_error
 from ..making.fault_records import signal_bound
 from ..records import Check, Function, Measurement, Severity, Sides, or_refused
 from ..vectors.exact_comparison import lifted

@@ -34,6 +34,7 @@ def _gap_at_one(n_v: Any, r: Array) -> bool:
 
 _ABSOLUTE = "A threshold is absolute: with the whole record brought to size one first, the function passes."
 _UNLIKE = "Channels in unlike units mislead it: with each channel brought to size one first, the function passes."
+_AS_OUTPUTS = "There are as many faults as outputs: rounding or noise is taken for faults, or windows are too short."
 
 RANKS = (
     asked_otherwise("The windows are counted from 0: the rank of s - 1 block rows is answered for s.", _later),
@@ -46,15 +47,15 @@ RANKS = (
 OF_RESIDUAL = (
     asked_otherwise(_ABSOLUTE, lambda function, r: function(r / to_one(r))),
     asked_otherwise(_UNLIKE, lambda function, r: function(r / sizes(r))),
-    seen("There are as many faults as outputs: rounding or noise is taken for faults.", lambda n_v, r: int(n_v) == r.shape[1]),
-    seen("The answer is rank R_2 - rank R_1, which is the number of faults only where the lag is below 2.", _gap_at_one),
+    seen(_AS_OUTPUTS, lambda n_v, r: int(n_v) == r.shape[1]),
+    seen("The answer equals rank R_2 - rank R_1: windows are too short.", _gap_at_one),
     answer_changed("There is one fault too many.", lambda n_v, *_: float(n_v) - 1),
     answer_changed("There is one fault too few.", lambda n_v, *_: float(n_v) + 1),
 )
 OF_RECORD = (
     asked_otherwise(_ABSOLUTE, lambda function, y, u, order: function(y / to_one(y), u / to_one(u), order)),
     asked_otherwise(_UNLIKE, lambda function, y, u, order: function(y / sizes(y), u / sizes(u), order)),
-    seen("There are as many faults as outputs: rounding or noise is taken for faults.", lambda n_v, y, *_: int(n_v) == y.shape[1]),
+    seen(_AS_OUTPUTS, lambda n_v, y, *_: int(n_v) == y.shape[1]),
     answer_changed("There is one fault too many.", lambda n_v, *_: float(n_v) - 1),
     answer_changed("There is one fault too few.", lambda n_v, *_: float(n_v) + 1),
 )

@@ -35,7 +35,7 @@ from faultspace.exact.system.systems import FaultySystem, ResidualSystem
 
 from ....base.writing import write_text
 from ...method.model.compression import EPS
-from ...study.rounding.conditioning import SMALL
+from ...study.conditioning import SMALL
 from ..vectors.exact_comparison import roots
 from ..vectors.fault_vectors import FaultView
 from ..vectors.rationals import ROUNDING, floats, matrix, scaled

@@ -29,8 +29,8 @@ from ...method.model.models import StateSpaceModel
 from ...method.model.residuals import residual
 from ...method.signal.reconstruction import reconstruct_fault
 from ...method.space.by_ranks import noise_free_fault_space
-from ...study.rounding.conditioning import SMALL
-from ...study.rounding.residual_conditioning import fault_signal_error, fitted_state_error
+from ...study.conditioning import SMALL
+from ...study.residual_conditioning import fault_signal_error, fitted_state_error
 from ..vectors.fault_vectors import AS_GIVEN, HALF, VIEWS, FaultVector, FaultView, UnexcitingVector, channel_units, in_channel_units
 from ..vectors.inputs import LONG_WINDOW, unexciting_inputs, with_input
 from ..vectors.rationals import floats, fractions, matrix, scaled

@@ -16,7 +16,7 @@ import numpy as np
 from ....base.arrays import Array
 from ...method.model.compression import compress
 from ...method.model.past_inputs import pi_moesp, pi_moesp_from_compression
-from ...study.rounding.conditioning import ModelError, by_gram, by_qr, moesp_error, noise_free_range, output_error_error, setting
+from ...study.conditioning import ModelError, by_gram, by_qr, moesp_error, noise_free_range, output_error_error, setting
 from ..vectors.exact_comparison import markov, matched, poles, polynomial_from_the_top, transfer
 from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import POINTS, IdentificationVector

@@ -25,7 +25,7 @@ from faultspace.exact.system.systems import ResidualSystem
 from ....base.arrays import Array
 from ....base.threads import one_thread
 from ...method.model.compression import EPS
-from ...study.rounding.conditioning import SMALL
+from ...study.conditioning import SMALL
 from ..vectors.exact_comparison import roots
 from ..vectors.fault_vectors import AS_GIVEN, HALF, FaultVector, in_channel_units, samples_that_settle
 from ..vectors.rationals import floats

@@ -85,12 +85,9 @@ class Arx:
 
     def radius(self) -> float:
         """Return the largest modulus of a root of det A(q), 0 where A is constant."""
-        h, p = self.order, len(self.covariance)
-        if h == 0:
+        if self.order == 0:
             return 0.0
-        companion = np.eye(h * p, k=-p)
-        companion[:p] = -np.hstack(list(self.outputs[1:]))
-        return float(np.max(np.abs(np.linalg.eigvals(companion))))
+        return float(np.max(np.abs(companion_roots(-np.hstack(list(self.outputs[1:]))))))
 
     def scaled(self, y: Array, u: Array) -> Arx:
         """Return the model of the record whose outputs are multiplied by `y` (p,) and whose inputs by `u` (n_u,)."""
@@ -203,3 +200,11 @@ def _solved(upper: Array, right: Array) -> Array:
     if reciprocal > level:
         return np.asarray(solve_triangular(upper, right, check_finite=False))
     return np.asarray(lstsq(upper, right, cond=level, check_finite=False)[0])
+
+
+def companion_roots(blocks: Array) -> NDArray[np.complex128]:
+    """Return the modes (h p,) of x(k) = sum_j A_j x(k-j), for [A_1 .. A_h] (p, h p)."""
+    p, width = blocks.shape
+    companion = np.eye(width, k=-p)
+    companion[:p] = blocks
+    return np.asarray(np.linalg.eigvals(companion), dtype=np.complex128)

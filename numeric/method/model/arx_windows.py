@@ -35,15 +35,16 @@ from .compression import EPS, Compression, scaled_condition, window_rows
 from .sequential_qr import SequentialQR, triangular
 
 RATE = 1.6
-"""Lags over the cube root of the samples. The bias of a truncated autoregression falls as fast as any power of 1/lags, and its variance is
-normal as long as lags^3 / N stays bounded [LR85]; the factor is calibrated by `python benchmarks/at_the_bound.py --calibrate lags`: errors
+"""Lags over the cube root of the samples. In the limit coefficients are normal where lags^3 / N and sqrt(N) times the bias vanish [LR85]:
+the cube root is the edge of that, so the factor is calibrated by `python benchmarks/at_the_bound.py --calibrate lags`: errors
 are the same from 1.2 to 3.2, and larger at 0.8 where the noise has a spectral null."""
 SHARE = 4
 """At least that many windows for every regressor of an equation: the covariance of the innovations then has three degrees of freedom of
 four left, and its inverse is wrong by a factor of about 4/3 at most."""
 WORK, LEAST = 1 << 35, 20
 """The factor costs the square of (lags + 1) (p + n_u) a sample: of long records so many lags are carried as WORK multiplications allow,
-some seconds, and LEAST in any case. The bias of a truncated autoregression falls as fast as any power of 1/lags [LR85]."""
+some seconds, and LEAST in any case. The bias of a truncated autoregression falls geometrically where the disturbance is
+rational and its spectrum has no null."""
 
 
 SECTION = 1 << 18

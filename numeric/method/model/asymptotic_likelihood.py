@@ -59,13 +59,30 @@ def arx_reduction(
 ) -> ReducedModel:
     """Estimate the stable model of order n from one experiment with coloured faults, by ARX and weighted reduction [W89].
 
-    y (N, p) and u (N, n_u) are arrays in any units, and are not modified; without u, y gives the consecutive pieces (y, u) of the
-    experiment anew at each `iter`, as a list or a record does. `order` is n >= 0; where it is not given, orders are tried, `orders` of the
-    result has the evidence for each, and the model is that of the best. `lags` bounds the order of the ARX model, about 1.6 N^(1/3) where
-    it is not given. A constant of any size in y and u changes `offsets` of the result and nothing else; with offset=False none is
-    fitted, which is right where neither sensors nor faults have a mean of their own. Raises InvalidData where the data cannot give a
-    model: too few samples, an input that does not excite lags + 1 samples (beside a constant, where one is fitted), an unstable plant, NaN.
+    Parameters
+    ----------
+    y, u : array_like, (N, p) and (N, n_u)
+        In any units, not modified; without `u`, `y` gives the consecutive pieces (y, u) anew at each `iter`, as a list or a record does.
+    order : int, optional
+        n >= 0; else the best of those tried, for which `orders` of the result has the evidence.
+    lags : int, optional
+        Bound on the order of the ARX model, about 1.6 N^(1/3) by default.
+    offset : bool
+        Whether a constant is fitted, which changes `offsets` of the result alone; without is right where neither sensors nor faults have a
+        mean of their own.
 
+    Returns
+    -------
+    ReducedModel
+        `model` with its standard errors, `uncertainty`.
+
+    Raises
+    ------
+    InvalidData
+        Too few samples, an input that does not excite lags + 1 samples (beside a constant, where one is fitted), an unstable plant, NaN.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import arx_reduction
     >>> u = np.random.default_rng(1).standard_normal((300, 1))
@@ -95,10 +112,25 @@ def arx_reduction_experiments(
     Each has a length, an initial state and an offset of its own: their operating points may differ. Experiments no longer than the lags
     have no part in the model; their offset and state are NaN, and a note tells how many there are.
 
-    `experiments` is a list of pairs, y with the shape (N_i, p) and u with (N_i, n_u), or pieces and None, or of Records, as
-    `read_stretches` gives them; the
-    other arguments and the result are those of `arx_reduction`. Raises InvalidData as there, and where no experiment is given.
+    Parameters
+    ----------
+    experiments : list of (y, u), or of Record
+        y has the shape (N_i, p) and u (N_i, n_u), or y is pieces and u None; `read_stretches` gives records.
+    order, lags, offset
+        As of `arx_reduction`.
 
+    Returns
+    -------
+    ReducedModel
+        As of `arx_reduction`.
+
+    Raises
+    ------
+    InvalidData
+        As `arx_reduction`, and where no experiment is given.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, arx_reduction_experiments
     >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]])

@@ -5,11 +5,19 @@ The first part of every experiment makes models that are then tried on the part 
 the criterion by which one is chosen; the models of the first part start from those of the whole.
 
 order_tried     the evidence, and the model of the best order
+held_out_fits   of PI-MOESP models, where neither singular values nor an ARX model tell the order: each order's fit to the part held back
+order_left_open the order of the best fit and those that fit nearly as well; None where no order fits better than a constant
+
+A fit is 1 - |y - simulated y| / |y - mean of y| in channels of equal size, the initial state fitted. Simulating is what a model without a
+disturbance's spectrum can be held to. The error of a fit to M numbers is that of a deviation, about 1 / sqrt(2 M) of |y - simulated y|:
+orders whose misfit is within FAR such errors of the best are left open, and where the best is not as much better than a constant, beside
+what n numbers of an initial state explain of noise, there is none. That describes what was tried, and is no test of a level.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -19,6 +27,7 @@ from .arx import Arx, fitted_arx
 from .arx_windows import ArxWindows, about_zero, arx_windows, joined_windows, merge_windows
 from .compression import Pieces
 from .order_evidence import OrderEvidence, OrderRow, weighed
+from .past_inputs import pi_moesp
 from .reduced_model import ReducedModel, described, judged, reduction_problems, weight_inflation
 from .reduction_search import Found, minima
 from .reduction_starts import hankel_factors
@@ -27,6 +36,7 @@ from .weighted_reduction import arrived, descend
 
 HELD_BACK = 60, 1e-7  # most steps, and relative gain of the last one, of models that are only held against samples kept back
 KEPT_BACK = 3  # one part in so many is held back
+MOST, HELD, FAR = 12, 1 << 14, 2.0  # of PI-MOESP models: orders tried, samples looked at (the last of the record), errors
 MOST_HELD = 1 << 15  # samples of an experiment that are held back at most: they stand in memory
 
 
@@ -120,3 +130,46 @@ def _fit(found: ReducedModel, training: ArxWindows, held: Sequence[tuple[Array, 
     errors = [sum(r[h - i : len(r) - i] @ found.arx.outputs[i].T for i in range(h + 1)) for r in free]
     sizes = [np.sqrt(sum(float(np.sum((part / scale) ** 2)) for part in parts) / power) for parts in (errors, [r[h:] for r in free])]
     return float(1 - sizes[0]), float(1 - sizes[1])
+
+
+@dataclass(frozen=True)
+class OpenOrder:
+    """The model of order `best` fits the samples held back best, those of orders `least` to `most` nearly as well; `fits` has the fit of
+    each order tried, from 1 on, NaN where there is none."""
+
+    best: int
+    least: int
+    most: int
+    fits: tuple[float, ...]
+
+
+def held_out_fits(y: Array, u: Array, block_rows: int) -> list[float]:
+    """Return the fits of orders 1, 2, .. for y (N, p) and u (N, n_u); NaN where an order has no model."""
+    y, u = y[-HELD:], u[-HELD:]
+    cut = len(y) - len(y) // KEPT_BACK
+    about = y[cut:] - y[cut:].mean(axis=0)
+    spread = np.sqrt(np.mean(about**2, axis=0))
+    scale = np.where(spread > 0, spread, 1.0)
+    fits = []
+    for n in range(1, MOST + 1):
+        try:
+            model = pi_moesp(y[:cut], u[:cut], order=n, block_rows=block_rows)
+            rest = residual(y[cut:], u[cut:], model).r
+        except (InvalidData, np.linalg.LinAlgError):
+            fits.append(float("nan"))
+            continue
+        with np.errstate(over="ignore", invalid="ignore"):
+            fits.append(float(1 - np.linalg.norm(rest / scale) / np.linalg.norm(about / scale)))
+    return fits
+
+
+def order_left_open(y: Array, u: Array, block_rows: int) -> OpenOrder | None:
+    """Return the order that fits held-back samples best, with those nearly as good; None where none is better than the mean."""
+    fits = np.array(held_out_fits(y, u, block_rows))
+    held = max(min(len(y), HELD) // KEPT_BACK * y.shape[1], 1)
+    orders = np.minimum(np.arange(1, MOST + 1), held)
+    if not np.any(1 - fits < (1 - FAR / np.sqrt(2 * held)) * np.sqrt(1 - orders / held)):
+        return None
+    best = int(np.nanargmax(fits))
+    near = np.flatnonzero(1 - fits <= (1 - fits[best]) * (1 + FAR / np.sqrt(2 * held)))
+    return OpenOrder(best + 1, int(near[0]) + 1, int(near[-1]) + 1, tuple(fits.tolist()))

@@ -306,13 +306,34 @@ def pi_moesp(
 ) -> MoespModel:
     """Identify the model of one experiment by PI-MOESP [V93].
 
-    y (N, p) and u (N, n_u) are arrays or memory maps, in any units, and are not modified; without u, y gives the consecutive pieces
-    (y, u) of the experiment anew at each `iter`, as a list or a record does. An array is read in the same pieces; extra memory does not
-    grow with N. The `order` n is chosen by the gap where it is not given; block_rows s must exceed the lag, p (s - 1) >= n; past_rows is
-    block_rows where it is not given, past_rows n_u >= n; `route` is as in `compress`. Raises InvalidData where the data or arguments
-    cannot give a model or can be read only once, and OrderUndecided where the order is left open and there is no clean gap or one that
-    leaves A undetermined.
+    Parameters
+    ----------
+    y, u : array_like, (N, p) and (N, n_u)
+        In any units, not modified; without `u`, `y` gives the consecutive pieces (y, u) anew at each `iter`, as a list or a record does.
+        Arrays are read in such pieces, too: extra memory does not grow with N.
+    order : int, optional
+        n, chosen by the gap of the singular values where it is not given.
+    block_rows : int
+        s, beyond the lag: p (s - 1) >= n.
+    past_rows : int, optional
+        By default `block_rows`; past_rows n_u >= n.
+    route : str, optional
+        As in `compress`.
 
+    Returns
+    -------
+    MoespModel
+        A, B, C, D, with the singular values.
+
+    Raises
+    ------
+    InvalidData
+        Data or arguments that cannot give a model, or can be read only once.
+    OrderUndecided
+        The order is left open and there is no clean gap, or one that leaves A undetermined.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import pi_moesp
     >>> u = np.random.default_rng(1).standard_normal((300, 1))
@@ -336,11 +357,27 @@ def pi_moesp_experiments(
     past_rows: int | None = None,
     route: str | None = None,
 ) -> MoespModel:
-    """Identify one model of several experiments (y, u) with the same channels, each with an own initial state, by PI-MOESP [V93].
+    """Identify one model of several experiments with the same channels, each with an own initial state, by PI-MOESP [V93].
 
-    Each y (N_i, p) and u (N_i, n_u) may have its own number of samples, all in the same units; arguments and result are those of
-    `pi_moesp`. Raises InvalidData as there, and where no experiment is given.
+    Parameters
+    ----------
+    experiments : list of (y, u)
+        Each y (N_i, p) and u (N_i, n_u) with its own number of samples, all in the same units.
+    order, block_rows, past_rows, route
+        As of `pi_moesp`.
 
+    Returns
+    -------
+    MoespModel
+        As of `pi_moesp`.
+
+    Raises
+    ------
+    InvalidData
+        As `pi_moesp`, and where no experiment is given.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, pi_moesp_experiments
     >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]])

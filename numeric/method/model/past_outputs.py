@@ -25,9 +25,26 @@ def po_moesp(y: ArrayLike, u: ArrayLike, *, order: int | None = None, block_rows
     """Identify the model of one experiment by past inputs and outputs, PO-MOESP [VV07].
 
     The model is biased where a fault or a disturbance is coloured, whatever the number of samples (chapter 9 of the source has the method).
-    y (N, p) and u (N, n_u) are arrays in any units, and are not modified; arguments, order rule and result are those of `pi_moesp`, with
-    p block_rows > order and singular values of the unscaled factor. Raises InvalidData as there.
 
+    Parameters
+    ----------
+    y, u : array_like, (N, p) and (N, n_u)
+        In any units, not modified.
+    order, block_rows, past_rows
+        As of `pi_moesp`, with p block_rows > order.
+
+    Returns
+    -------
+    MoespModel
+        A, B, C, D, with singular values of the unscaled factor.
+
+    Raises
+    ------
+    InvalidData
+        As `pi_moesp`.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import po_moesp
     >>> u = np.random.default_rng(1).standard_normal((300, 1))

@@ -34,7 +34,7 @@ from ...data.plain import plain
 from ...data.records import SampleStore, stored
 from ...data.validation import experiment
 from ..plotting import plot_residual
-from ..ranks.triangles import stacked_triangle
+from ..ranks.sample_windows import stacked_triangle
 from .models import Simulator, StateSpaceModel
 
 GROWTH = 1e4
@@ -123,15 +123,33 @@ def residual(
     *,
     x0: ArrayLike | None = None,
 ) -> ResidualSignal:
-    """Return r = y - (the model's response to u); the initial state is fitted by least squares [GVL13] unless `x0` (n,) is given.
+    """Return r = y - (the model's response to u); the initial state is fitted by least squares [GVL13] unless `x0` is given.
 
-    y (N, p) and u (N, n_u) are arrays in the model's units; `model` is a StateSpaceModel, or a result that has one, of `pi_moesp` or
-    `identify`. Where u is None, y gives the consecutive pieces (y, u) of the record at each
-    `iter`. With x0 given, the record is read once, piece by piece, and none of it is held; the fit of x0 holds it. The covariance of x0
-    holds for a stationary r, with autocovariances up to lag N^(1/3) under Bartlett weights [NW87]; the model is taken as exact.
-    Raises InvalidData for NaN, unequal lengths, channels that do not fit the
-    model, fewer than n samples, and for a given x0 with a model whose modes grow by more than FORWARD over the record.
+    With x0 given, the record is read once, piece by piece, and none of it is held; the fit of x0 holds it. The covariance of x0 holds for a
+    stationary r, with autocovariances up to lag N^(1/3) under Bartlett weights [NW87]; the model is taken as exact.
 
+    Parameters
+    ----------
+    y, u : array_like, (N, p) and (N, n_u)
+        In the model's units; with `u` None, `y` gives the consecutive pieces (y, u) of the record at each `iter`.
+    model : StateSpaceModel, or what has one
+        As the results of `pi_moesp` and `identify` have.
+    x0 : array_like (n,), optional
+        The initial state.
+
+    Returns
+    -------
+    ResidualSignal
+        `r` (N, p) and `x0`.
+
+    Raises
+    ------
+    InvalidData
+        NaN, unequal lengths, channels that do not fit the model, fewer than n samples; a given x0 with a model whose modes grow by more
+        than FORWARD over the record.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, residual
     >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]])

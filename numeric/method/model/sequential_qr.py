@@ -1,7 +1,8 @@
 """This is the triangular factor of a block Hankel matrix, appended to block by block: exact to rounding whatever the condition of the data.
 
 A row of the Hankel matrix H is a pair (lag, channel): H[(l, c), j] = w(j + l)[c] for the joint signal w = [u, y]. The factor R is upper
-triangular with R.T @ R = H @ H.T; only a factor and one block of columns are held. [VV07] calls R.T the L of the LQ (RQ) factorisation.
+triangular with R.T @ R = H @ H.T; only a factor and one block of columns are held. R.T is the R of [VV07]'s RQ
+factorisation, the L of an LQ one.
 
 Neighbouring windows share most of their samples. So TOGETHER windows are taken as one longer one: the factor of the longer ones has
 little more columns and an eighth of the rows, each window is a choice of its columns, and the factor of these choices is R.

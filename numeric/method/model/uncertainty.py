@@ -41,7 +41,7 @@ class Uncertainty(Shown):
     matplotlib, and nothing else.
 
     >>> from faultspace.numeric import Spectra, StateSpaceModel, cramer_rao
-    >>> from faultspace.numeric.study.bound.driving_spectra import white
+    >>> from faultspace.numeric.study.driving_spectra import white
     >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]])
     >>> least = cramer_rao(model, Spectra(white([[1.0]]), white([[0.01]])), 400)
     >>> least.markov(2).ravel().round(5).tolist(), least.poles().real.round(5).tolist()

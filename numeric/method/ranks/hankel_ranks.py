@@ -12,8 +12,9 @@ triangle serves every s: R_s' is the leading part of R_(s_max)', and so are thei
 Threshold. With R the exact and R + E the given Hankel matrix every singular value moves by at most |E|_2 (Weyl; [GVL13], corollary 8.6.2),
 and |E|_2 <= |E|_F. Samples of unit mean square, each wrong by at most `ROUNDINGS` units in the last place, give
 |E|_F <= ROUNDINGS eps |R_s|_F; the QR adds a small multiple of the same. Where cancellation (r = y - simulated) left larger
-but still rounding-like errors, they show as a cluster of least singular values: for independent errors of deviation d the
-singular values of E lie within d (sqrt(columns) -+ sqrt(rows)) [DS01], so the least of R gives d; `SPREAD` covers unequal channels.
+but still rounding-like errors, they show as a cluster of least singular values: those of a matrix of
+independent errors of deviation d lie between d (sqrt(columns) -+ sqrt(rows)), about [DS01], so the least of R gives d. `SPREAD` covers
+unequal channels, and that a Hankel matrix has each error many times, which can spread its singular values farther.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ import numpy as np
 import scipy.linalg
 
 from ....base.arrays import Array
-from .triangles import stacked_triangle
+from .sample_windows import stacked_triangle
 
 ROUNDINGS = 64.0
 SPREAD = 30.0

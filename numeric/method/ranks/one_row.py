@@ -31,7 +31,7 @@ from ....base.arrays import Array
 from ....base.errors import InvalidData
 from ....base.sheets import counted
 from ...data.validation import signal
-from .triangles import stacked_triangle
+from .sample_windows import stacked_triangle
 
 BANDS = 64
 SEGMENT = 2048

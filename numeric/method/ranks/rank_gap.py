@@ -13,8 +13,9 @@ Two regimes, told apart by the data alone:
 
     windows         s = 1 .. block_rows + 1
     ranks, margins  rank of R_s at its threshold; powers of ten between the threshold and the nearest singular value
-    thresholds      in units of the scaled channels (mean square one), see `hankel_ranks`; in the noise regime the largest singular value
-                    that white noise of the estimated level could reach, power^(1/2) (sqrt(columns) + sqrt(rows)) [DS01]: for orientation
+    thresholds      in units of the scaled channels (mean square one), see `hankel_ranks`; in the noise regime power^(1/2)
+                    (sqrt(columns) + sqrt(rows)), the largest singular value of as many independent errors, about [DS01]: for
+                    orientation, since a Hankel matrix of white noise can have a larger one
     gaps            rank R_(s+1) - rank R_s, s = 1 .. block_rows
     channel_scales  root mean square of each channel, divided out first: units do not matter
 
@@ -130,14 +131,33 @@ class FaultDimension(Shown):
 
 @one_thread()
 def fault_dimension(r: ArrayLike | Stored, *, block_rows: int | None = None, u: ArrayLike | None = None) -> FaultDimension:
-    """Return the number of independent faults in a residual r (N, p), in any units, from its gaps up to s = block_rows.
+    """Return the number of independent faults in a residual, from the gaps of its window ranks.
 
-    Without `block_rows` it looks up to 20, less far for few samples or many channels. float32 data have float32 rounding. For
-    a residual of an identified model give its inputs `u` (N, n_u): the model's error is driven by u, and without u it counts as further
-    faults where it stands out of the noise; with u the ranks are those of [U_s; R_s] less those of U_s. With a record from before the
-    fault, `fault_dimension_against_healthy` sees more. Raises InvalidData for NaN, constant or too few samples and for u of
-    another length. Source: [G25] proposition 3, repaired; thresholds [GVL13], [DS01].
+    With a record from before the fault, `fault_dimension_against_healthy` sees more. float32 data have float32 rounding. Source: [G25]
+    proposition 3, repaired; thresholds [GVL13], [DS01].
 
+    Parameters
+    ----------
+    r : array_like (N, p), or the ResidualSignal of `residual`
+        In any units.
+    block_rows : int, optional
+        Longest window; by default 20, less for few samples or many channels.
+    u : array_like (N, n_u), optional
+        Inputs, for the residual of an identified model, whose error they drive: the ranks are those of [U_s; R_s] less those of U_s.
+        Without them that error counts as further faults where it stands out of the noise.
+
+    Returns
+    -------
+    FaultDimension
+        `n_v`, None where it is undecided, with ranks, gaps and margins.
+
+    Raises
+    ------
+    InvalidData
+        NaN, constant or too few samples, u of another length.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import fault_dimension
     >>> v = np.random.default_rng(1).standard_normal((200, 1))

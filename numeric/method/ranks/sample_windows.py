@@ -1,6 +1,7 @@
 """This is the Hankel matrix R_s of a residual, compressed once to a triangular factor, and the coordinates in which its ranks
 are decided.
 
+    stacked_triangle     R with R' R = X' X, X blocks one below the other: memory does not grow with their number
     hankel_factor        L, (p s, p s) with L L' = R_s R_s', by sequential QR: the only place where N enters
     leading_factor       the factor of fewer block rows from that of more
     ObservedCoordinates  channels of unit size and the state basis in which O_s has orthonormal columns
@@ -21,7 +22,6 @@ from itertools import chain
 import numpy as np
 
 from ....base.arrays import Array
-from .triangles import stacked_triangle
 
 EPS = float(np.finfo(float).eps)
 # Numbers held at a time while the Hankel matrix passes by.
@@ -113,3 +113,11 @@ def gap_rank(values: Array, candidates: Iterable[int], floor: float) -> tuple[in
     ratios = [(float(padded[k] / padded[k + 1]), k) for k in candidates]
     drop, rank = max(ratios)
     return rank, drop
+
+
+def stacked_triangle(width: int, blocks: Iterable[Array]) -> Array:
+    """Return the triangle R of the QR factorisation of these blocks of `width` columns: as many rows as columns, or as there are rows."""
+    triangle = np.zeros((0, width))
+    for block in blocks:
+        triangle = np.asarray(np.linalg.qr(np.vstack([triangle, block]), mode="r"))
+    return triangle

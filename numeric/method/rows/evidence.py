@@ -3,6 +3,7 @@
     Evidence            the moments of [y; u] for rows of degree order + EXTRA, those for long single rows, and the models
     quick, higher       models of the order and of EXTRA states more, from the ARX model in milliseconds: starts, no estimates
     unexplained         the moments of what the model of `arx_reduction` leaves of y
+    quick_reduction     such a model, in the units of the ARX model
     disturbance         the spectrum of what disturbs y, by the ARX model alone, whatever the order; `apparent` rows seem to be laws by it
 
 Everything is made when it is first asked for, and once.
@@ -22,11 +23,12 @@ from ...data.validation import experiment
 from ..model.arx import Arx, fitted_arx
 from ..model.arx_windows import arx_windows, merge_windows
 from ..model.asymptotic_likelihood import arx_reduction_experiments, lengths_and_lags
+from ..model.invariants import state_space
 from ..model.models import StateSpaceModel
-from ..model.quick_reduction import quick_reduction
 from ..model.reduced_model import ReducedModel
+from ..model.reduction_starts import realisations
 from ..model.residuals import residual
-from ..model.weighted_reduction import spectral_radius
+from ..model.weighted_reduction import Reduction, circle, descend, spectral_radius
 from ..space.tapered_moments import BANDS, pooled_moments
 from .joint import JointMoments, joint_moments_experiments
 from .remainder import Remainder, as_signals
@@ -39,6 +41,8 @@ LONG = 10
 SHORT = 2000
 # Share of the initial state's error, itself far below the noise, that is left where it is thought to have died away.
 GONE = 1e-4
+# Of a descent that only makes a start: at most so many steps, until one gains no more than such a share.
+ANGLES, STEPS, GAIN = 32, 25, 1e-2
 TINY = float(np.finfo(np.float64).tiny)
 
 
@@ -163,3 +167,17 @@ def longest_degree(y: Array, u: Array) -> int:
     """Return the highest degree for which y (N, p) and u (N, n_u) have twice as many windows as a window has entries."""
     channels = int(y.shape[1] + u.shape[1])
     return (len(y) - 2 * channels) // (2 * channels + 1)
+
+
+def quick_reduction(arx: Arx, n: int) -> StateSpaceModel:
+    """Return a stable model of order n in the units of the ARX model, a start and no estimate: the best of the realisations of its Markov
+    parameters [HK66, K78] under its own weight, improved by few steps at few angles, the input taken for white. Raises InvalidData where
+    the ARX model shows no dynamics to begin from."""
+    angles = circle(ANGLES)
+    n_u = arx.inputs.shape[2]
+    white = np.broadcast_to(np.eye(n_u, dtype=np.complex128), (ANGLES, n_u, n_u))
+    problem = Reduction(angles, arx.plant(angles), arx.weight(angles), white, arx.rows)
+    begun = sorted(realisations(arx, problem, n, arx.order), key=lambda start: problem.cost(start, n))
+    if not begun:
+        raise InvalidData(f"no model of order {n} can be begun from this ARX model: try another order")
+    return state_space(descend(problem, begun[0], n, STEPS, GAIN)[0], n)

@@ -137,19 +137,38 @@ def count_faults(
     draws: int = 0,
     model: ReducedModel | None = None,
 ) -> FaultCount:
-    """Decide how many independent faults act on y (N, p) with inputs u (N, n_u), where the system has this `order` or less.
+    """Decide how many independent faults act on outputs y with inputs u, where the system has this `order` or less.
 
-    Where u is None, y is a list of pairs (y, u), each an experiment of the same system with an initial state of its own, or a record, in
-    however many pieces it was read. Operating points may differ where each experiment is given about its own means; those too short for
-    the rows that the longest one carries have no part, and the reason tells how many. `noise_level` is the standard deviation of the
-    noise in each output, (p,) or one number for all, in units of y: it is taken as right to a factor of 1.4, and may be wrong by 2.
-    `draws` is the number of records of the parametric bootstrap for each k that is tried, by which the misfit of the stated laws is
-    measured for this very record (20 will do, a quarter of a second each). `model` is what `arx_reduction` found in these same data,
-    where it has been asked already: it saves time. Units of y and u do not matter.
+    Operating points of experiments may differ where each is given about its own means; those too short for the rows that the longest one
+    carries have no part, and the reason tells how many. Source: [W91] for the rows, [M82] and [W38] for the ratios.
 
-    Raises InvalidData for shapes that do not fit, records too short for rows of degree order + 3, constant outputs, and outputs that are
-    combinations of others up to rounding. Source: [W91] for the rows, [M82] and [W38] for the ratios.
+    Parameters
+    ----------
+    y, u : array_like, (N, p) and (N, n_u)
+        In any units; with `u` None, `y` is a list of pairs (y, u), experiments with initial states of their own, or a record.
+    order : int
+        Number of states, at most.
+    noise_level : float or (p,), optional
+        Standard deviation of the noise in each output, in units of y: taken as right to a factor of 1.4, it may be wrong by 2.
+    draws : int
+        Records of the parametric bootstrap for each k that is tried, by which the misfit of the stated laws is measured for this very
+        record (20 will do, a quarter of a second each).
+    model : ReducedModel, optional
+        What `arx_reduction` found in these data: it saves time.
 
+    Returns
+    -------
+    FaultCount
+        `n_v`, None where it is undecided, with what remains `possible` and the tests.
+
+    Raises
+    ------
+    InvalidData
+        Shapes that do not fit, records too short for rows of degree order + 3, outputs that are constant, or combinations of others up to
+        rounding.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import count_faults
     >>> rng = np.random.default_rng(0)

@@ -6,7 +6,7 @@
 Both are true of k <= p - n_v rows. Of more rows the faults are left in the remainder: its shape is theirs, and longer rows still gain. The
 noise shares of the channels are estimated in turns with the rows; of a single row they are not identifiable and stay as stated.
 
-Several rows begin from a model of the system (`model_rows.py`), which is made in milliseconds and only a start (`evidence.py`). Their
+Several rows begin from a model of the system (`model_rows`), which is made in milliseconds and only a start (`evidence.py`). Their
 descent must have arrived before shares are estimated: those of a remainder that still holds faults run away. A descent may end elsewhere
 (one of the first 48, seed 310014 of the benchmark); so a second one is made where the first leaves no laws, unless the disturbance of the
 ARX model shows fewer, too. All p rows together say that no fault acts: y less what the model makes of u and of the initial state is
@@ -37,11 +37,11 @@ import numpy as np
 from ....base.arrays import Array
 from ....base.chi_squared import chi_squared_tail
 from ...data.plain import plain
-from ..space.basis import ROUGH, KernelBasis, colour_of
+from ..model.models import StateSpaceModel, observability_matrix
+from ..space.basis import ROUGH, KernelBasis, colour_of, kernel_basis
 from .bootstrap import redrawn
 from .evidence import EXTRA, Evidence
 from .joint import PRECISION, JointMoments, course, even_split, fitted, padded, refitted
-from .model_rows import model_rows
 from .remainder import Remainder, Sphericity, loose_samples, noise_shares, remainder, sphericity, whitened
 
 # Turns of noise shares and rows, among the rows that a model admits and among all.
@@ -62,6 +62,7 @@ SUFFICES, FAILS = 0.01, 1e-12
 # beyond that they are worth neither another start nor a bootstrap.
 FAR, HOPELESS = 5.5, 2.0
 SEED = 20251122
+ROUNDS = 1  # turns of colour and rows that begin from a model; what follows has more
 
 
 @dataclass(frozen=True, eq=False)
@@ -323,3 +324,29 @@ def step_to_two(evidence: Evidence, one: Laws, two: Laws) -> float:
             break
         least, best, shares = min(least, fit.level), nats, noise_shares(remainder(data, fit), shares)
     return least - one.level
+
+
+def model_within(model: StateSpaceModel, degrees: Sequence[int]) -> list[Array]:
+    """Return the vectors that the coefficients of a row may combine, for each degree eta (p (eta + 1) - n, (p + n_u) (eta + 1)), in the
+    order of the window of [y; u]."""
+    spaces = {eta: _annihilators(model, eta) for eta in set(degrees)}
+    return [spaces[eta] for eta in degrees]
+
+
+def _annihilators(model: StateSpaceModel, eta: int) -> Array:
+    p, n_u, n = model.p, model.n_u, model.n
+    left = np.linalg.svd(observability_matrix(model.A, model.C, eta + 1))[0][:, n:].T
+    markov = model.markov(eta + 1)
+    toeplitz = np.block([[markov[i - j] if i >= j else np.zeros((p, n_u)) for j in range(eta + 1)] for i in range(eta + 1)])
+    both = np.concatenate([left.reshape(-1, eta + 1, p), (-left @ toeplitz).reshape(-1, eta + 1, n_u)], axis=2)
+    return np.asarray(np.linalg.qr(both.reshape(len(left), -1).T)[0].T, dtype=np.float64)
+
+
+def model_rows(data: JointMoments, model: StateSpaceModel, degrees: Sequence[int], shares: Array | None = None) -> KernelBasis:
+    """Fit the likeliest rows of these degrees that the model, in the units of the moments, admits.
+
+    A row [N_y N_u] that annihilates [y; u] without faults has N_y O = 0 and N_u = -N_y T, O the observability matrix of its window and T
+    the Toeplitz matrix of its Markov parameters [W91]; the rows that faults leave are among them. So few coefficients are free that the
+    least combination is found from any start. Where the model is wrong, they are a start for rows whose coefficients are all free."""
+    moments = data.moments.of_degree(max(degrees))
+    return kernel_basis(moments, model_within(model, degrees), rounds=ROUNDS, shares=data.noise(shares), flat=ROUGH)

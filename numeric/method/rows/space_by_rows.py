@@ -30,11 +30,10 @@ from ....base.sheets import counted
 from ....base.threads import one_thread
 from ...data.validation import noise_deviations, positive, signals
 from ..model.arx import Arx
-from ..model.last_state import last_state
 from ..model.models import StateSpaceModel, observability_matrix
 from ..model.reduced_model import ReducedModel
 from ..model.uncertainty import Uncertainty
-from ..model.valleys import valleys
+from ..model.valleys import last_state, valleys
 from ..ranks.arguments import shaped
 from ..ranks.sample_windows import ObservedCoordinates, channel_sizes, observed_coordinates
 from ..space.basis import KernelBasis
@@ -75,21 +74,40 @@ def fault_space_by_rows(
     noise_level: ArrayLike | None = None,
     draws: int = 0,
 ) -> FaultSpaceEstimate:
-    """Estimate the fault space of y (N, p), u (N, n_u) for A (n, n), C (p, n) of the model and n_v < p faults.
+    """Estimate the fault space of outputs y and inputs u for the model's A and C, from the laws that they obey.
 
-    Where u is None, y is a list of pairs (y, u), each an experiment of the same system with an initial state of its own; experiments too
-    short for the rows are left out.
+    The number of zeros is decided by likelihood ratios of a stated level (`numeric/method/rows/degree.py`), whose misfit is calibrated. The
+    angle of the answer takes n_z, A and C as right: `identified_fault_space` has the error of an identified model in it. The noise is taken
+    to have one colour; noise of other ratios of powers than stated turns the space, and on long records hides that a degree suffices.
+    Source: [G25] problem (11), [W91].
 
-    The number of zeros is decided by likelihood ratios of a stated level (`numeric/method/rows/degree.py`), whose misfit is calibrated.
-    `draws` is a number of records of the parametric bootstrap from which the misfit of this record is estimated in its place; ten take
-    seconds at a thousand samples. Faults are as loud there as they are here together with the noise, so that where they are faint the
-    misfit is uncertain. The angle of the answer takes n_z, A and C as right: `identified_fault_space` has the error of an identified model
-    in it. The basis is in the states of A and the units of y, which do not matter otherwise. The noise is taken to have one colour, and
-    powers as those of `noise_level` (one number or one an output, in units of y), of which only the ratios matter; without it the same
-    power relative to the deviation of each output. Noise of other ratios turns the space, and on long records hides that a degree suffices:
-    what `count_faults` finds serves, the root of its `noise_power`. Raises InvalidData for shapes that do not fit, n_v outside 1 .. p, and
-    records too short for rows of degree n + 1. Source: [G25] problem (11), [W91].
+    Parameters
+    ----------
+    y, u : array_like, (N, p) and (N, n_u)
+        In any units; with `u` None, `y` is a list of pairs (y, u), experiments with initial states of their own, those too short for the
+        rows left out.
+    A, C : array_like, (n, n) and (p, n)
+    n_v : int
+        Number of faults, 1 to p - 1.
+    noise_level : float or (p,), optional
+        Deviations of the noise in units of y, of which only the ratios matter, by default those of the outputs: the root of `noise_power`
+        of `count_faults` serves.
+    draws : int
+        Records of the parametric bootstrap that estimates the misfit of this record instead; ten take seconds at a thousand samples. Faults
+        are as loud there as they are here with the noise, so that where they are faint it is uncertain.
 
+    Returns
+    -------
+    FaultSpaceEstimate
+        `basis` (n + p, n_z) in the states of A and the units of y, with its `uncertainty`.
+
+    Raises
+    ------
+    InvalidData
+        Shapes that do not fit, n_v outside 1 .. p, records too short for rows of degree n + 1.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import fault_space_by_rows
     >>> rng = np.random.default_rng(0)
@@ -114,18 +132,38 @@ def identified_fault_space(
     noise_level: ArrayLike | None = None,
     draws: int = 0,
 ) -> FaultSpaceEstimate:
-    """Estimate the fault space of y (N, p), u (N, n_u) for a model that `arx_reduction` found in such data, whose error is in the angle.
+    """Estimate the fault space of outputs y and inputs u for a model that `arx_reduction` found in such data, its error in the angle.
 
-    y, u, `n_v`, `noise_level` and `draws` are those of `fault_space_by_rows`. The likelihood of a model has several valleys in short
-    records: models with other poles that explain the data as well (`numeric/method/model/valleys.py`). The space is that of the given
-    model; the angle is over all valleys, each with its probability. In each of them the covariance of A and C is carried to the space to
-    first order [MN89], widened by what `benchmarks/space_at_the_bound.py --calibrate` measures, and added to that of the rows. Both take
-    the order and the number of zeros as right. A state too many is a zero too many: where the data would rather do with a state less, zeros
-    are undecided if the data chose the order, and hold for the order that was given, which the reason then says. The benchmark counts how
-    often the angle holds; one above half a radian says that the space is hardly known. The basis is in the states of the model and the
-    units of y; the states are matched with the true ones by least squares of the observability matrices. Raises InvalidData as
-    `fault_space_by_rows` does.
+    The likelihood of a model has several valleys in short records: models with other poles that explain the data as well
+    (`numeric/method/model/valleys.py`). The space is that of the given model; the angle is over all valleys, each with its probability. In
+    each of them the covariance of A and C is carried to the space to first order [MN89], widened by what
+    `benchmarks/space_at_the_bound.py --calibrate` measures, and added to that of the rows. Both take the order and the number of zeros as
+    right. A state too many is a zero too many: where the data would rather do with a state less, zeros are undecided if the data chose the
+    order, and hold for the order that was given, which the reason then says. The benchmark counts how often the angle holds; one above half
+    a radian says that the space is hardly known. The states are matched with the true ones by least squares of the observability matrices.
 
+    Parameters
+    ----------
+    y, u : array_like, (N, p) and (N, n_u)
+    model : ReducedModel
+    n_v : int
+        Number of faults.
+    noise_level : float or (p,), optional
+    draws : int
+        All but `model` as of `fault_space_by_rows`.
+
+    Returns
+    -------
+    FaultSpaceEstimate
+        `basis` (n + p, n_z) in the states of the model and the units of y, with its `uncertainty`.
+
+    Raises
+    ------
+    InvalidData
+        As `fault_space_by_rows`.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, arx_reduction, identified_fault_space
     >>> rng = np.random.default_rng(0)
@@ -162,13 +200,13 @@ def _with_order(found: FaultSpaceEstimate, model: ReducedModel) -> FaultSpaceEst
     doubt = f"order {found.n - 1} explains the data nearly as well (likelihood ratio {last.gain:.2g} with {last.parameters} parameters)"
     if model.orders is None:
         return replace(
-            found, reason=f"if the order is {found.n}, as given: {found.reason}; {doubt}, and a state too many is a zero too many"
+            found, finding=f"if the order is {found.n}, as given: {found.finding}; {doubt}, and a state too many is a zero too many"
         )
     return replace(
         found,
         decided=False,
         margin=last.worth,
-        reason=f"undecided: {found.reason}; but {doubt}, and a state too many is a zero too many",
+        finding=f"{found.finding}; but {doubt}, and a state too many is a zero too many",
     )
 
 
@@ -340,8 +378,7 @@ def _estimate(rows: _Rows, solved: _Solved) -> FaultSpaceEstimate:
     words = "; as many as the observability indices of (A, C) allow" if n_z == rows.largest else ""
     if n_z > n_v:
         words += "; what the data cannot tell from a zero counts as one"
-    doubt = "" if chosen.decided else "undecided: "
-    reason = f"{doubt}n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}; for the rows total {chosen.reason}{words}"
+    finding = f"n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}; for the rows total {chosen.reason}{words}"
     return FaultSpaceEstimate(
         solved.basis,
         n_z,
@@ -355,7 +392,7 @@ def _estimate(rows: _Rows, solved: _Solved) -> FaultSpaceEstimate:
         chosen.margin,
         chosen.decided,
         True,
-        reason,
+        finding,
         None,
         "kernel rows",
         SpaceUncertainty(solved.root),

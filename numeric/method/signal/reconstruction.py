@@ -146,11 +146,31 @@ def reconstruct_fault(
 ) -> Reconstruction:
     """Reconstruct the signal v of the faults F, G whose simulated residual equals r, by the smoother of [HP98], [MZ10].
 
-    r (N, p) is an array, a store or the ResidualSignal of `residual`, in the units of y; A (n, n), F (n, n_v), C (p, n), G (p, n_v); v
-    comes in units of r over those of G. x0 (n,) is the initial state, where it is known. `within` are the samples (first, last) of `left`
-    and `whole`, by default all; `on_progress(stage, done, total)` hears how far it has come. Raises InvalidData for shapes that do not fit,
-    values that are not finite, more faults than outputs, a fault without any effect, or a model so unstable that the record overflows.
+    Parameters
+    ----------
+    r : array_like (N, p), a store, or the ResidualSignal of `residual`
+        In the units of y.
+    A, F, C, G : array_like, (n, n), (n, n_v), (p, n) and (p, n_v)
+    x0 : array_like (n,), optional
+        The initial state, where it is known.
+    within : (int, int), optional
+        The samples (first, last) of `left` and `whole`, by default all.
+    on_progress : callable, optional
+        Hears (stage, done, total).
 
+    Returns
+    -------
+    Reconstruction
+        `v` (N, n_v) in units of r over those of G, where it is `trusted`, and its `delay`.
+
+    Raises
+    ------
+    InvalidData
+        Shapes that do not fit, values that are not finite, more faults than outputs, a fault without any effect, a model so unstable that
+        the record overflows.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import reconstruct_fault
     >>> v = np.sin(np.arange(50.0))[:, np.newaxis]

@@ -1,67 +1,54 @@
 """This estimates the fault space from a noisy residual, where R_s has full rank and no null row is exact.
 
-    fault_space_by_likelihood      kernel rows by maximum likelihood with noise colour: the better estimator
-    fault_space_by_least_squares   null rows by the singular value decomposition, weighted by their uncertainty: no
-                                   iteration, white noise
-    null_row_covariance            what white noise does to a null row, up to a factor
-    P                              orthonormal rows with P O_s = 0, `complement` of `joint_kernel_basis`
-    q                              (p - n_v) s - (n - zeta): how many null rows a window has for a given number of zeros
-    mix                            n_v + 1 combinations of the outputs, which obey exactly one kernel row, of degree
-                                   n - zeta
+    fault_space_by_likelihood   kernel rows by maximum likelihood with noise colour
+    joint_basis                 all p - n_v rows at once, with the row degrees that the data accept, from a fault space found row by row
+    complement                  P with orthonormal rows and P O_s = 0: a true kernel row is g P, because A and C are known
+    mix                         n_v + 1 combinations of the outputs, which obey exactly one kernel row, of degree n - zeta
 
 zeta, the number of zeros, is never taken larger than the observability indices of (A, C) allow (`fault_space_bound`).
-It is chosen where a higher degree of the row no longer explains anything (likelihood), or by the largest drop among the
-possible ranks (least squares). On data of the paper's kind no rule finds it always, because a system that nearly has a
-zero looks like one that has it: `decided` and `margin` tell how clear it was, and `zeta` of the estimate is None where
-it was not. The number found, all p - n_v rows are fitted at once (`joint_kernel_basis`), which also tells how far the
-space may be off.
+It is chosen where a higher degree of the row no longer explains anything. On data of the paper's kind no rule finds it always, because a
+system that nearly has a zero looks like one that has it: `decided` and `margin` tell how clear it was, and `zeta` of the estimate is None
+where it was not. The number found, all p - n_v rows are fitted at once (`joint_kernel_basis`), which also tells how far the space may be
+off.
 
 What noise it takes. The likelihood form divides each channel by its size and takes the noise to have one colour and the same power in
 every divided channel: it is consistent only where the noise has one colour and the same power relative to each channel. Otherwise, as
 with sensors of equal absolute noise on channels of different size, it keeps a bias of second order in the noise that more samples do not
-take away (`tests/numeric/test_convergence.py` shows both), and the stated angle does not contain it. Least squares takes white noise,
-likewise in proportion. Other units of r change nothing: the channels are divided by their sizes all the same.
+take away (`tests/numeric/test_convergence.py` shows both), and the stated angle does not contain it. Other units of r change nothing: the
+channels are divided by their sizes all the same.
 
-The constants are judged by `benchmarks/constants.py space` and `squares`, whose rule was fixed before. Of 900 records (seed 700500)
-least squares answers 123 rightly and 3 wrongly, and no factor from a half to two is better. The likelihood answers 442 rightly and 4
-wrongly of 540 (seeds 700100 and 700600); with QUIET doubled it is 471 and 10, more of either kind, and no other factor is better.
+The constants are judged by `benchmarks/constants.py space`, whose rule was fixed before: 442 records of 540 (seeds 700100 and 700600) are
+answered rightly and 4 wrongly; with QUIET doubled it is 471 and 10, more of either kind, and no other factor is better.
 
 Source: [G25] problem (11); the likelihood of one row is that of `kernel_likelihood`.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import combinations_with_replacement, islice
 
 import numpy as np
+import scipy.linalg
 from numpy.typing import ArrayLike
 
 from ....base.arrays import Array
-from ....base.errors import InvalidData
 from ....base.sheets import counted
 from ..ranks.arguments import Arguments, arguments
 from ..ranks.one_row import kernel_row
 from ..ranks.rank_gap import fault_dimension
-from ..ranks.sample_windows import EPS, ObservedCoordinates, gap_rank, hankel_factor, observed_coordinates
+from ..ranks.sample_windows import EPS, ObservedCoordinates, observed_coordinates
+from .basis import KernelBasis, kernel_basis
 from .estimate import FaultSpaceEstimate, condition_maps, everything, kernel_conditions, orthonormal
 from .largest import largest_fault_space
 from .space_uncertainty import space_uncertainty
-from .start import complement, joint_basis
 from .tapered_moments import CrossMoments, tapered_moments
 
-# Nats a sample: what a longer row may gain by absorbing noise colour, what it must gain to be called clearly needed,
-# and
-# up to where the gains not used are clearly idle.
+# Nats a sample: what a longer row may gain by absorbing noise colour, what it must gain to be called clearly needed, and up to where the
+# gains not used are clearly idle.
 IDLE, NEEDED, QUIET = 0.1, 0.5, 0.03
-# Ratio of singular values below which a rank found in noise is called undecided.
-CLEAR_DROP = 14.0
-# Windows beyond lag + 1 that least squares uses: shifted copies of the null rows average the noise; many more let it
-# in again.
-EXTRA_WINDOWS = 3
-REWEIGHTINGS = 6
 NOISE_TAKEN = "noise taken to have one colour and the same power relative to each channel: a bias stays where it has not"
-# Floor of signal over noise power in the uncertainty of null rows, where the estimate of the signal is itself noise.
-SIGNAL_FLOOR = 1e-3
 
 
 def fault_space_by_likelihood(
@@ -99,8 +86,8 @@ def likelihood_space(data: Arguments, block_rows: int | None) -> FaultSpaceEstim
         return everything(data.n, data.p, faults, window, _too_short(data, faults, zeta, lag, window), lag=lag)
     strengths, columns = _solutions(conditions, n_z)
     decided = margin >= 1
-    doubt = "" if decided else f"undecided: the number of zeros is a near thing (margin {margin:.2g}, 1 is needed); "
-    reason = f"{doubt}n_z = {n_z} = n_v + zeta = {faults} + {zeta}; {why}; {_told_bound(n_z, most)}{NOISE_TAKEN}"
+    doubts = () if decided else (f"the number of zeros is a near thing (margin {margin:.2g}, 1 is needed)",)
+    finding = f"n_z = {n_z} = n_v + zeta = {faults} + {zeta}; {why}; {_told_bound(n_z, most)}{NOISE_TAKEN}"
     return FaultSpaceEstimate(
         orthonormal(coordinates.back(columns)),
         n_z,
@@ -114,65 +101,11 @@ def likelihood_space(data: Arguments, block_rows: int | None) -> FaultSpaceEstim
         margin,
         decided,
         True,
-        reason,
+        finding,
         None,
         "likelihood",
         None if basis is None else space_uncertainty(basis.rows, basis.within, basis.covariance, coordinates, columns),
-    )
-
-
-def fault_space_by_least_squares(
-    r: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int | None = None, block_rows: int | None = None
-) -> FaultSpaceEstimate:
-    """Estimate the same from the left singular vectors of P R_s, their conditions weighted by the covariance that white noise
-    gives them.
-
-    Raises InvalidData as `fault_space`.
-    """
-    data = arguments(r, A, C, n_v, block_rows)
-    faults, why = _faults(data)
-    if faults is None or faults >= data.p:
-        return everything(data.n, data.p, faults, data.block_rows, why)
-    zeta, drop = _zeros_by_rank(data, faults, data.n + 1)
-    lag = -(-(data.n - zeta) // (data.p - faults))
-    # Not beyond what the record is long enough for.
-    window = min(lag + 1 + EXTRA_WINDOWS, (len(data.r) + 1) // (data.p + 1)) if block_rows is None else data.block_rows
-    if window <= lag:
-        return everything(data.n, data.p, faults, window, _too_short(data, faults, zeta, lag, window), lag=lag)
-    n, p, n_z = data.n, data.p, faults + zeta
-    coordinates, P, left, values = _null_directions(data, window)
-    q = (p - faults) * window - (n - zeta)
-    signal = left.shape[1] - q
-    rows = left[:, signal:].T @ P
-    conditions = kernel_conditions(rows.reshape(q, window, p), coordinates.A, coordinates.C)
-    maps = condition_maps(coordinates.A, coordinates.C, window)
-    uncertainty = null_row_covariance(P, left, values, signal)
-    columns = np.eye(n + p)
-    for _ in range(REWEIGHTINGS):
-        weighted = _whitened(conditions, maps, uncertainty, columns)
-        _, strengths, right = np.linalg.svd(np.linalg.qr(weighted, mode="r"))
-        strengths = np.concatenate([strengths, np.zeros(n + p - strengths.size)])
-        columns = right[n + p - n_z :].T
-    decided = drop >= CLEAR_DROP
-    doubt = "" if decided else f"undecided: the rank behind zeta drops by only {drop:.2g}; "
-    reason = f"{doubt}n_z = {n_z} = n_v + zeta = {faults} + {zeta}, window {window}; {why}"
-    basis = orthonormal(coordinates.back(columns))
-    return FaultSpaceEstimate(
-        basis,
-        n_z,
-        n,
-        faults,
-        lag,
-        window,
-        strengths,
-        n + p - n_z,
-        n + p,
-        drop,
-        decided,
-        True,
-        reason,
-        None,
-        "least squares",
+        doubts,
     )
 
 
@@ -268,52 +201,58 @@ def _least_degree(levels: Array, samples: int, least: int) -> tuple[int, float]:
     return degree, float(min(gained / NEEDED, QUIET / unused))
 
 
-def _null_directions(data: Arguments, s: int) -> tuple[ObservedCoordinates, Array, Array, Array]:
-    coordinates = observed_coordinates(data.r, data.A, data.C, s)
-    factor = hankel_factor(data.r / coordinates.scale, s) / np.sqrt(len(data.r))
-    P = complement(coordinates.A, coordinates.C, s)
-    left, values, _ = np.linalg.svd(P @ factor)
-    return coordinates, P, left, np.concatenate([values, np.zeros(P.shape[0] - values.size)])
+# Splits tried, and the nats a sample by which the joint level may lie above that of single rows before another is.
+SPLITS = 6
+SLACK = 0.3  # nats above the best split up to which another is a start, too; it decides which descents are made, and no answer
 
 
-def _zeros_by_rank(data: Arguments, faults: int, s: int) -> tuple[int, float]:
-    """Return zeta by the largest drop among the ranks of P R_s that it allows, and the drop."""
-    s = min(s, (len(data.r) + 1) // (data.p + 1))
-    coordinates, P, _, values = _null_directions(data, s)
-    hidden = data.n - coordinates.observed
-    most = largest_fault_space(coordinates.A, coordinates.C, faults) - faults
-    ranks = {P.shape[0] - ((data.p - faults) * s - (data.n - zeta)): zeta for zeta in range(hidden, most + 1)}
-    possible = [rank for rank in ranks if 0 < rank < P.shape[0]]
-    if not possible:
-        raise InvalidData(
-            f"r has {counted(len(data.r), 'sample')}, too few for a window longer than the lag: record more, or take a model of lower order"
-        )
-    rank, drop = gap_rank(values, possible, EPS * float(values[0]))
-    return ranks[rank], drop
+def joint_basis(
+    moments: CrossMoments, coordinates: ObservedCoordinates, rows: int, degree: int, columns: Array, level: float
+) -> KernelBasis | None:
+    """Find the likeliest basis of this many rows, whose degrees add up to `degree`, started from the fault space `columns` (n + p, n_z) in
+    the observed coordinates; None where no split of the degree comes near the `level` that single rows leave."""
+    for degrees in islice(splits(degree, rows), SPLITS):
+        within = [complement(coordinates.A, coordinates.C, eta + 1) for eta in degrees]
+        start = rows_from(columns, coordinates, degrees)
+        if start is None:
+            continue
+        basis = kernel_basis(moments.of_degree(max(degrees)), within, [start])
+        if basis.level <= level + SLACK:
+            return basis
+    return None
 
 
-def null_row_covariance(P: Array, left: Array, values: Array, signal: int) -> Array:
-    """Return the covariance (p s, p s), up to a factor, of the error that white noise makes in each left singular vector to a
-    small value.
-
-    To first order the vector tilts towards signal direction j with variance proportional to lambda_j / (lambda_j -
-    noise)^2.
-    """
-    power = values**2
-    noise = float(np.mean(power[signal:])) if signal < power.size else 0.0
-    clean = np.maximum(power[:signal] - noise, max(SIGNAL_FLOOR * noise, EPS**2 * float(power[0])))
-    tilted = P.T @ left[:, :signal]
-    return np.asarray((tilted * (power[:signal] / clean**2)) @ tilted.T)
+def splits(degree: int, rows: int) -> Iterator[tuple[int, ...]]:
+    """Return ascending row degrees that add up to `degree`, the most equal first."""
+    parts = (part for part in combinations_with_replacement(range(degree + 1), rows) if sum(part) == degree)
+    yield from sorted(parts, key=lambda part: (part[-1] - part[0], part[-1]))
 
 
-def _whitened(conditions: Array, maps: Array, uncertainty: Array, columns: Array) -> Array:
-    """Return conditions (q, s, n + p) as (q s, n + p), each row's s conditions multiplied so that their errors at `columns`
-    are white on average.
-    """
-    responses = np.einsum("kab,bz->kaz", maps, columns)
-    spread = np.einsum("kaz,ac,lcz->kl", responses, uncertainty, responses, optimize=True)
-    spread += np.eye(len(spread)) * max(1e-9 * float(np.trace(spread)), np.finfo(float).tiny)
-    q, s, width = conditions.shape
-    stacked = conditions.transpose(1, 0, 2).reshape(s, q * width)
-    white = np.linalg.solve(np.linalg.cholesky(spread), stacked)
-    return np.asarray(white.reshape(s * q, width))
+def complement(A: Array, C: Array, s: int) -> Array:
+    """Return P (k, p s) with orthonormal rows, P O_s = 0."""
+    blocks = [C]
+    for _ in range(s - 1):
+        blocks.append(blocks[-1] @ A)
+    left, values, _ = np.linalg.svd(np.vstack(blocks))
+    size = float(values[0]) if values.size else 0.0
+    observed = int(np.sum(values > left.shape[0] * EPS * size))
+    return np.asarray(left[:, observed:].T)
+
+
+def rows_from(columns: Array, coordinates: ObservedCoordinates, degrees: tuple[int, ...]) -> list[Array] | None:
+    """Return kernel rows (eta_i + 1, p) of these ascending degrees that come nearest to N T_s(z) = 0 for the columns z and leave no
+    row a combination of shifts of the others; None where the degrees leave no room for that."""
+    p = coordinates.C.shape[0]
+    found: list[Array] = []
+    for degree in sorted(set(degrees)):
+        P = complement(coordinates.A, coordinates.C, degree + 1)
+        shifts = [np.pad(row.ravel(), (a * p, (degree - a + 1) * p - row.size)) for row in found for a in range(degree - len(row) + 2)]
+        if shifts:
+            P = scipy.linalg.null_space(np.array(shifts) @ P.T).T @ P
+        wanted = degrees.count(degree)
+        if len(P) < wanted:
+            return None
+        asked = np.concatenate(list(condition_maps(coordinates.A, coordinates.C, degree + 1) @ columns), axis=1)
+        left = np.linalg.svd(P @ asked)[0]
+        found += [(vector @ P).reshape(degree + 1, p) for vector in left[:, len(P) - wanted :].T]
+    return found

@@ -3,7 +3,6 @@
     fault_space              the estimate for any residual: the noise-free form where R_s has a rank to machine
                              precision, else the likelihood form
     noise_free_fault_space   by the exact ranks of every window up to n + 1
-    FaultSpaceEstimate       the record: basis, n_z, F, G, meaningful, reason
     N_s                      left null space of R_s, R_s the block Hankel matrix of r with s block rows
     lag                      the largest degree of a minimal kernel row; the answer is right from s = lag + 1 on, not
                              before
@@ -28,7 +27,7 @@ from ....base.threads import one_thread
 from ...data.records import Stored, in_memory
 from ..ranks.arguments import Arguments, arguments
 from ..ranks.sample_windows import EPS, channel_sizes, gap_rank, hankel_factor, leading_factor, observed_coordinates
-from .by_likelihood import fault_space_by_least_squares, fault_space_by_likelihood, likelihood_space
+from .by_likelihood import likelihood_space
 from .error_bound import fault_space_error_bound
 from .estimate import FaultSpaceEstimate, everything, kernel_conditions, orthonormal
 from .largest import largest_fault_space
@@ -38,26 +37,37 @@ EXACT = 2e-12
 # A rank whose drop is smaller than this is called undecided.
 CONVINCING = 1e3
 
-__all__ = [
-    "FaultSpaceEstimate",
-    "fault_space",
-    "fault_space_by_least_squares",
-    "fault_space_by_likelihood",
-    "noise_free_fault_space",
-]
-
 
 @one_thread()
 def fault_space(
     r: ArrayLike | Stored, A: ArrayLike, C: ArrayLike, *, n_v: int | None = None, block_rows: int | None = None
 ) -> FaultSpaceEstimate:
-    """Estimate the fault space of a residual r (N, p), in the units of y, for the model's A (n, n) and C (p, n): problem (11) of [G25].
+    """Estimate the fault space of a residual for the model's A and C: problem (11) of [G25].
 
-    `n_v` is the number of faults, found from the data when not given; `block_rows` is s, by default the least window
-    that surely suffices. Answers that mean nothing (no null rows, window not longer than the lag) are returned as
-    such, with `meaningful` False and a reason. Raises InvalidData for shapes that do not fit, values that are not
-    finite, n_v outside 1..p, or fewer samples than the window needs.
+    Answers that mean nothing (no null rows, window not longer than the lag) are returned as such, with `meaningful` False and a reason.
 
+    Parameters
+    ----------
+    r : array_like (N, p), or the ResidualSignal of `residual`
+        In the units of y.
+    A, C : array_like, (n, n) and (p, n)
+    n_v : int, optional
+        Number of faults, 1 to p, else found from the data.
+    block_rows : int, optional
+        Window s, by default the least that surely suffices.
+
+    Returns
+    -------
+    FaultSpaceEstimate
+        `basis` (n + p, n_z) of the columns [f; g], `n_z`, `decided`, `meaningful` and `reason`.
+
+    Raises
+    ------
+    InvalidData
+        Shapes that do not fit, values that are not finite, n_v outside 1..p, fewer samples than the window needs.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import fault_space
     >>> v = np.random.default_rng(1).standard_normal((100, 1))
@@ -162,7 +172,8 @@ def _from_ladder(data: Arguments, ladder: Ladder) -> FaultSpaceEstimate:
     expected = n + p - sum(degree + 1 for degree in degrees if degree < s)
     margin = min(drop, ladder.drops[s], *ladder.drops[-2:])
     decided = margin >= CONVINCING and expected == n_z and ladder.final_gap == n_v
-    meaningful, reason = _judged(data, ladder, n_v, n_z, expected, margin)
+    doubtful = margin < CONVINCING and expected == n_z
+    meaningful, finding = _judged(data, ladder, n_v, n_z, expected)
     return FaultSpaceEstimate(
         basis,
         n_z,
@@ -176,9 +187,10 @@ def _from_ladder(data: Arguments, ladder: Ladder) -> FaultSpaceEstimate:
         margin,
         decided,
         meaningful,
-        reason,
+        finding,
         bound,
         "noise-free",
+        doubts=(f"the weakest rank decision has a drop of only {margin:.2g}",) if meaningful and doubtful else (),
     )
 
 
@@ -193,7 +205,7 @@ def _no_null_rows(data: Arguments, ladder: Ladder) -> str:
     return f"rank R_{s} = {p * s} of {rows}: no null row, so every column [f; g] is a solution and the answer means nothing; {why}"
 
 
-def _judged(data: Arguments, ladder: Ladder, n_v: int, n_z: int, expected: int, margin: float) -> tuple[bool, str]:
+def _judged(data: Arguments, ladder: Ladder, n_v: int, n_z: int, expected: int) -> tuple[bool, str]:
     """Return whether the answer means something, and the sentence that says why or why not."""
     s, lag, longest = data.block_rows, ladder.lag, len(ladder.ranks) - 1
     ranks = f"ranks of R_1 .. R_{longest}: {', '.join(map(str, ladder.ranks[1:]))}"
@@ -221,7 +233,6 @@ def _judged(data: Arguments, ladder: Ladder, n_v: int, n_z: int, expected: int, 
     if n_z != expected:
         return (
             True,
-            f"undecided: the conditions leave {counted(n_z, 'column')}, the ranks {expected}; A and C may not fit the residual ({ranks})",
+            f"the conditions leave {counted(n_z, 'column')}, the ranks {expected}; A and C may not fit the residual ({ranks})",
         )
-    doubt = "" if margin >= CONVINCING else f"undecided: the weakest rank decision has a drop of only {margin:.2g}; "
-    return True, f"{doubt}n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}, lag {lag}, window {s} ({ranks})"
+    return True, f"n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}, lag {lag}, window {s} ({ranks})"

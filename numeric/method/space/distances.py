@@ -74,13 +74,26 @@ def containment_distance(U: object, V: object) -> float:
 
 @one_thread()
 def subspace_distance(U: object, V: object) -> float:
-    """Return the two-sided distance of span U (d, k) and span V (d, l): the sine of the largest angle either way.
+    """Return the two-sided distance of span U and span V: the sine of the largest angle either way.
 
-    It is 0 iff the spans are equal and 1 where their dimensions differ; neither the choice of basis nor the units of
-    a column matter. U and V are of any type that numpy takes for an array. It tells how far
-    an estimated fault space is from a known one. Raises InvalidData for different numbers of rows, dependent columns, or entries that
-    are not finite. Source: [YL16], [GVL13] section 6.4.3.
+    It is 0 iff the spans are equal and 1 where their dimensions differ; neither the choice of basis nor the units of a column matter. It
+    tells how far an estimated fault space is from a known one. Source: [YL16], [GVL13] section 6.4.3.
 
+    Parameters
+    ----------
+    U, V : array_like of the shapes (d, k) and (d, l)
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    InvalidData
+        Different numbers of rows, dependent columns, entries that are not finite.
+
+    Examples
+    --------
     >>> from faultspace.numeric import subspace_distance
     >>> subspace_distance([[1, 0], [0, 1], [0, 0]], [[2, 1], [0, 1], [0, 0]]), subspace_distance([[1], [0]], [[0], [1]])
     (0.0, 1.0)

@@ -15,19 +15,18 @@ p). Source: [G25] problem (11).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ....base.arrays import Array
 from ....base.errors import InvalidData
-from ....base.sheets import Shown
+from ....base.sheets import Shown, or_undecided
 from ...data.plain import plain
 from ..plotting import plot_conditions
 
 DRAWS = 4000
-UNDECIDED = "undecided: "
 _SEED = 20250519
 
 
@@ -134,8 +133,10 @@ class FaultSpaceEstimate(Shown):
     margin           ratio at the weakest decision that n_z rests on; near 1 it was a toss-up
     decided          whether that margin is convincing and independent counts of n_z agree
     meaningful       False where the answer says nothing about the faults; `reason` says why
+    finding          what was found, or why nothing was
+    doubts           why it is undecided, beside that; `reason` has both in words
     error_bound      bound on the sine of the angle to the true space from rounding and conditioning; None with noise
-    method           "noise-free", "least squares" or "likelihood" ("none" where no equation was found)
+    method           "noise-free", "likelihood" or "kernel rows" ("none" where no equation was found)
     uncertainty      of the likelihood form: the angle to the true space with a confidence, n_z taken as right; else None
 
     f is in the units of the state and g in those of y, each for a fault in units of its own. Raises nothing itself; `fault_space`,
@@ -160,14 +161,21 @@ class FaultSpaceEstimate(Shown):
     margin: float
     decided: bool
     meaningful: bool
-    reason: str
+    finding: str
     error_bound: float | None
     method: str
     uncertainty: SpaceUncertainty | None = None
+    doubts: tuple[str, ...] = ()
 
-    def in_doubt(self, doubt: str) -> FaultSpaceEstimate:
-        """Return the estimate with its dimension undecided for this reason."""
-        return replace(self, decided=False, reason=f"{UNDECIDED}{doubt}; {self.reason.removeprefix(UNDECIDED)}")
+    @property
+    def why(self) -> str:
+        """Return the doubts and what was found."""
+        return "; ".join((*self.doubts, self.finding))
+
+    @property
+    def reason(self) -> str:
+        """Return the same, and first of all whether it is undecided."""
+        return f"undecided: {self.why}" if self.doubts or (self.meaningful and not self.decided) else self.why
 
     @property
     def F(self) -> Array:
@@ -184,13 +192,13 @@ class FaultSpaceEstimate(Shown):
         """Return what the estimate is, on one short line."""
         if not self.meaningful:
             return "fault space: none that means anything"
-        return f"fault space of dimension {self.n_z}{'' if self.decided else ' (undecided)'}, n_v {_or_undecided(self.n_v)}"
+        return f"fault space of dimension {self.n_z}{'' if self.decided else ' (undecided)'}, n_v {or_undecided(self.n_v)}"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
         """Yield what there is to say of it, as pairs of a name and a value."""
         yield "why", self.reason
-        yield "number of faults n_v", _or_undecided(self.n_v)
-        yield "zeros, finite and infinite", _or_undecided(self.zeta)
+        yield "number of faults n_v", or_undecided(self.n_v)
+        yield "zeros, finite and infinite", or_undecided(self.zeta)
         yield "equations", f"{self.equations} for the {self.unknowns} entries of a column [f; g]"
         yield "method", f"{self.method}, windows of {self.block_rows} samples"
         if self.error_bound is not None:
@@ -236,10 +244,6 @@ class FaultSpaceEstimate(Shown):
         n_v unknown, the answer without meaning, or n_z undecided.
         """
         return None if self.n_v is None or not self.meaningful or not self.decided else self.n_z - self.n_v
-
-
-def _or_undecided(number: int | None) -> str:
-    return "undecided" if number is None else str(number)
 
 
 def everything(n: int, p: int, n_v: int | None, block_rows: int, reason: str, *, lag: int | None = None) -> FaultSpaceEstimate:

@@ -23,7 +23,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations, islice
-from typing import Any, Protocol
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -35,6 +35,8 @@ from ....base.sheets import Shown, counted
 from ....base.threads import one_thread
 from ...data.plain import plain
 from ...data.validation import noise_deviations
+from ..model.models import StateSpaceModel
+from ..model.residuals import HasModel
 from ..plotting import plot_angles
 from ..ranks.sample_windows import EPS
 from .estimate import FaultSpaceEstimate, SpaceOfValley
@@ -50,40 +52,17 @@ RANK = 1e-6  # singular values of responses of unit size below which they are de
 MOST_SETS, MOST_TRIED = 12, 4000
 
 
-class Matrices(Protocol):
-    """A model: A (n, n), B (n, n_u), C (p, n), D (p, n_u)."""
-
-    @property
-    def A(self) -> Array:
-        """Return the state matrix (n, n)."""
-
-    @property
-    def B(self) -> Array:
-        """Return the input matrix (n, n_u)."""
-
-    @property
-    def C(self) -> Array:
-        """Return the output matrix (p, n)."""
-
-    @property
-    def D(self) -> Array:
-        """Return the direct feedthrough (p, n_u)."""
-
-
-class Identified(Protocol):
-    """The result of an identification, with its `model`; a ReducedModel has its `uncertainty` too."""
-
-    @property
-    def model(self) -> Any:
-        """Return the model."""
-
-
 @dataclass(frozen=True)
 class SingleCause:
-    """One single cause: `kind` is "sensor" or "actuator" of `channel`."""
+    """One single cause: `kind` is "sensor" or "actuator" of `channel`; `bound` in radians, which its angle stays below with probability
+    0.95 where it is the cause; `p_value`, the chance of so large a deviation there; `answer` is "consistent", "excluded" or "undecided".
+    Numbers are None where nothing could be computed."""
 
     kind: str
     channel: str
+    bound: float | None
+    p_value: float | None
+    answer: str
 
     @property
     def name(self) -> str:
@@ -91,16 +70,14 @@ class SingleCause:
         return f"{'a sensor' if self.kind == 'sensor' else 'an actuator'} fault on {self.channel}"
 
 
+Kind = TypeVar("Kind", bound=SingleCause)
+
+
 @dataclass(frozen=True)
 class Cause(SingleCause):
-    """One single cause: `kind` is "sensor" or "actuator" of `channel`; `angle` in radians from its column to the fault space, in the
-    coordinates of the model; `bound`, which the angle stays below with probability 0.95 where the column lies in the true space; `p_value`,
-    the chance of so large a deviation there; `answer` is "consistent", "excluded" or "undecided"."""
+    """One single cause, and the `angle` in radians from its column to the fault space, in the coordinates of the model."""
 
     angle: float
-    bound: float | None
-    p_value: float | None
-    answer: str
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict, angles in degrees."""
@@ -115,7 +92,36 @@ class Cause(SingleCause):
 
 
 @dataclass(frozen=True, repr=False)
-class Isolation(Shown):
+class SingleCauses(Shown, Generic[Kind]):
+    """A row of `causes` for each sensor and each input, what was found in words, and the `reason` why nothing can be said, or an empty
+    string."""
+
+    causes: tuple[Kind, ...]
+    finding: str
+    reason: str
+
+    def of(self, answer: str) -> tuple[Kind, ...]:
+        """Return the causes with this answer."""
+        return tuple(cause for cause in self.causes if cause.answer == answer)
+
+    @property
+    def decided(self) -> bool:
+        """Say whether the answer is one: a cause is named, or neither."""
+        return not self.reason and (bool(self.of("consistent")) or not self.of("undecided"))
+
+    @property
+    def answer(self) -> str:
+        """Return what was found, and first of all whether it is undecided."""
+        return self.finding if self.decided else f"undecided: {self.finding}"
+
+    @property
+    def title(self) -> str:
+        """Return the answer, short enough for one line."""
+        return self.answer if len(self.answer) <= 80 else f"{self.answer[:77].rsplit(' ', 1)[0]} .."
+
+
+@dataclass(frozen=True, repr=False)
+class Isolation(SingleCauses[Cause]):
     """Which single sensors and actuators lie in a fault space, and which of them explain it.
 
     causes   a row for each sensor, in the order of the outputs, then for each actuator, in the order of the inputs
@@ -136,20 +142,13 @@ class Isolation(Shown):
     <Isolation: a sensor fault on y2 explains it, and no other single sensor or actuator does>
     """
 
-    causes: tuple[Cause, ...]
     n_v: int | None
     sets: tuple[tuple[Cause, ...], ...]
-    answer: str
-    reason: str
 
     @property
-    def title(self) -> str:
-        """Return the answer, short enough for one line."""
-        return self.answer if len(self.answer) <= 80 else f"{self.answer[:77].rsplit(' ', 1)[0]} .."
-
-    def of(self, answer: str) -> tuple[Cause, ...]:
-        """Return the causes with this answer."""
-        return tuple(cause for cause in self.causes if cause.answer == answer)
+    def decided(self) -> bool:
+        """Say whether the answer is one: of one fault a cause is named, of several a set, or neither."""
+        return super().decided and (self.n_v == 1 or bool(self.sets) or not self.of("undecided"))
 
     def sheet(self) -> Iterator[tuple[str, str]]:
         """Yield the answer and a line for each cause."""
@@ -181,7 +180,7 @@ class Isolation(Shown):
 @one_thread()
 def isolate(
     space: FaultSpaceEstimate,
-    model: Matrices | Identified,
+    model: StateSpaceModel | HasModel,
     *,
     outputs: Sequence[str] | None = None,
     inputs: Sequence[str] | None = None,
@@ -189,14 +188,33 @@ def isolate(
 ) -> Isolation:
     """Say which single sensors and actuators lie in a fault space, and which of them explain the faults.
 
-    `space` is of `identified_fault_space` for the ReducedModel `model`, whose errors are then in every bound, or of any function that gives
-    one for a StateSpaceModel, whose A, B, C, D of the shapes (n, n), (n, n_u), (p, n), (p, n_u) are taken as right. `outputs` and `inputs`
-    name the channels, by default y1, .., u1, ..; `units` (p,) are the sizes of the outputs, in units of y, by which the states of two
-    models are matched in the space: the roots of their mean squares, by default ones; or (p, p), where it was found in mixtures of outputs,
-    U with the mixtures U^-1 y of unit size. A cause is "excluded" where its probability is below
-    0.01, "consistent" where it is 0.05 or more and the bound is below half a radian, and else "undecided". All are undecided where the
-    space is. Raises InvalidData for shapes and names that do not fit. Source: [G25] problem (11), [MN89].
+    A cause is "excluded" where its probability is below 0.01, "consistent" where it is 0.05 or more and the bound is below half a radian,
+    and else "undecided". All are undecided where the space is. Source: [G25] problem (11), [MN89].
 
+    Parameters
+    ----------
+    space : FaultSpaceEstimate
+        Of `identified_fault_space` for a ReducedModel, whose errors are then in every bound; of any other function for a StateSpaceModel.
+    model : ReducedModel or StateSpaceModel
+        A, B, C, D of the shapes (n, n), (n, n_u), (p, n), (p, n_u), of a StateSpaceModel taken as right.
+    outputs, inputs : list of str, optional
+        Names of the channels, by default y1, .., u1, ..
+    units : (p,) or (p, p), optional
+        Sizes of the outputs, in units of y, by which the states of two models are matched: the roots of their mean squares, by default
+        ones; or U, where the space was found in mixtures U^-1 y of unit size.
+
+    Returns
+    -------
+    Isolation
+        A row for each sensor and input, and the sets of them that explain everything.
+
+    Raises
+    ------
+    InvalidData
+        Shapes and names that do not fit.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, fault_space, isolate
     >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0], [1.0]], [[0.0], [0.0]])
@@ -212,10 +230,7 @@ def isolate(
         raise InvalidData(
             f"space: got {got} for a model of {counted(n, 'state')} and {counted(p, 'output')}; needed is the fault space of this model"
         )
-    names = (list(outputs or [f"y{j + 1}" for j in range(p)]), list(inputs or [f"u{j + 1}" for j in range(n_u)]))
-    for given, count, what in ((names[0], p, "outputs"), (names[1], n_u, "inputs")):
-        if len(given) != count:
-            raise InvalidData(f"{what}: got {len(given)} names for {count}; one for each is needed")
+    names = channels(outputs, inputs, p, n_u)
     weight = _weight(units, p)
     columns = np.hstack([np.vstack([np.zeros((n, p)), np.eye(p)]), np.vstack([matrices.B, matrices.D])])
     uncertainty = getattr(model, "uncertainty", None)
@@ -227,7 +242,17 @@ def isolate(
         _cause(kind, name, columns[:, j], errors[:, :, j], space, undecided=bool(reason)) for j, (kind, name) in enumerate(labels)
     )
     sets = () if reason or space.n_v is None else _sets(causes, columns, matrices, space.n_v)
-    return Isolation(causes, space.n_v, sets, _words(causes, sets, space.n_v, reason), reason)
+    finding = reason or (words_of_one(causes, "it") if space.n_v == 1 else _words_of_sets(causes, sets, space.n_v or 0))
+    return Isolation(causes, finding, reason, space.n_v, sets)
+
+
+def channels(outputs: Sequence[str] | None, inputs: Sequence[str] | None, p: int, n_u: int) -> tuple[list[str], list[str]]:
+    """Return names of p outputs and n_u inputs, by default y1, .., u1, .. Raises InvalidData for other numbers of names."""
+    names = (list(outputs or [f"y{j + 1}" for j in range(p)]), list(inputs or [f"u{j + 1}" for j in range(n_u)]))
+    for given, count, what in ((names[0], p, "outputs"), (names[1], n_u, "inputs")):
+        if len(given) != count:
+            raise InvalidData(f"{what}: got {len(given)} names for {count}; one for each is needed")
+    return names
 
 
 def _refusal(space: FaultSpaceEstimate, reduced: bool, model_errors: int) -> str:
@@ -256,7 +281,7 @@ def _weight(units: ArrayLike | None, p: int) -> Array:
     return np.asarray(np.linalg.inv(mixed / sizes[:, None]) / sizes)
 
 
-def _column_errors(matrices: Matrices, root: Array, weight: Array) -> Array:
+def _column_errors(matrices: StateSpaceModel, root: Array, weight: Array) -> Array:
     """Return the errors (K, n + p, p + n_u) of the columns of sensors and actuators, as linear maps of the numbers of the model's root:
     those of B and D, and the turn of the states of the true model to those of this one."""
     (p, n), n_u = matrices.C.shape, matrices.B.shape[1]
@@ -279,17 +304,17 @@ def _cause(kind: str, channel: str, column: Array, errors: Array, space: FaultSp
     """Return what is to say of one column (n + p,) with these errors (K, n + p)."""
     size = float(np.linalg.norm(column))
     if size == 0.0:
-        return Cause(kind, channel, np.pi / 2, None, None, "undecided")
+        return Cause(kind, channel, None, None, "undecided", np.pi / 2)
     z, Q = column / size, space.basis
     inside = Q.T @ z
     off = z - Q @ inside
     angle = float(np.arctan2(np.linalg.norm(off), np.linalg.norm(inside)))
     if undecided:
-        return Cause(kind, channel, angle, None, None, "undecided")
+        return Cause(kind, channel, None, None, "undecided", angle)
     if space.uncertainty is None:
         assert space.error_bound is not None
         bound = float(np.arcsin(min(space.error_bound, 1.0)))
-        return Cause(kind, channel, angle, bound, None, "undecided" if bound > WIDE else "consistent" if angle <= bound else "excluded")
+        return Cause(kind, channel, bound, None, "undecided" if bound > WIDE else "consistent" if angle <= bound else "excluded", angle)
     spread = space.uncertainty.root @ inside
     if len(errors):
         moved = errors / size
@@ -299,7 +324,7 @@ def _cause(kind: str, channel: str, column: Array, errors: Array, space: FaultSp
     own, *others = space.uncertainty.valleys or (None,)
     chance = here if own is None else own.weight * here + sum(valley.weight * _elsewhere(kind, z, valley) for valley in others)
     answer = "consistent" if here >= CONSISTENT else "excluded" if chance < EXCLUDED else "undecided"
-    return Cause(kind, channel, angle, bound, chance, "undecided" if bound > WIDE else answer)
+    return Cause(kind, channel, bound, chance, "undecided" if bound > WIDE else answer, angle)
 
 
 def _elsewhere(kind: str, z: Array, valley: SpaceOfValley) -> float:
@@ -323,7 +348,7 @@ def _test(off: Array, spread: Array) -> tuple[float, float]:
     return float(np.arctan(np.quantile(np.linalg.norm(draws, axis=1), 0.95))), chance
 
 
-def _sets(causes: Sequence[Cause], columns: Array, model: Matrices, n_v: int) -> tuple[tuple[Cause, ...], ...]:
+def _sets(causes: Sequence[Cause], columns: Array, model: StateSpaceModel, n_v: int) -> tuple[tuple[Cause, ...], ...]:
     """Return the sets of n_v consistent causes whose responses are independent."""
     inside = [j for j, cause in enumerate(causes) if cause.answer == "consistent"]
     n = len(model.A)
@@ -339,20 +364,14 @@ def _sets(causes: Sequence[Cause], columns: Array, model: Matrices, n_v: int) ->
     return tuple(found[:MOST_SETS])
 
 
-def _words(causes: Sequence[Cause], sets: Sequence[Sequence[Cause]], n_v: int | None, reason: str) -> str:
-    """Return the answer in plain words, in which no cause is named alone where another one is consistent too."""
-    if reason or n_v is None:
-        return f"undecided: {reason}"
-    return _words_of_sets(causes, sets, n_v) if n_v > 1 else words_of_one(causes, "it")
-
-
 def answering(causes: Sequence[Any], answer: str) -> list[str]:
     """Return the names of the causes with this answer."""
     return [cause.name for cause in causes if cause.answer == answer]
 
 
 def words_of_one(causes: Sequence[Any], what: str, why: str = "") -> str:
-    """Return in plain words which single cause explains `what`; `why` says of those that are undecided why they are."""
+    """Return in plain words which single cause explains `what`, none named alone where another one is consistent too; `why` says of those
+    that are undecided why they are."""
     still, names = answering(causes, "undecided"), answering(causes, "consistent")
     rest = f"; undecided: whether {_listed(still, 'or')} does{why}" if still else ""
     if len(names) == 1:
@@ -360,7 +379,7 @@ def words_of_one(causes: Sequence[Any], what: str, why: str = "") -> str:
     if names:
         return f"{_listed(names, 'and')} explain {what}, each by itself: the data cannot tell which{rest}"
     if still:
-        return f"undecided: {_listed(still, 'or')} may explain {what}, and nothing else does{why}"
+        return f"{_listed(still, 'or')} may explain {what}, and nothing else does{why}"
     return f"neither: no single sensor and no single actuator explains {what}"
 
 
@@ -374,7 +393,7 @@ def _words_of_sets(causes: Sequence[Cause], sets: Sequence[Sequence[Cause]], n_v
         more = f", or {counted(len(sets) - 4, 'more set')}" if len(sets) > 4 else ""
         return f"together the {n_v} faults are explained by {listed}{more}: the data cannot tell which{rest}"
     if still:
-        return f"undecided: {n_v} faults act, and {_listed([*alone, *still], 'and')} may be among them"
+        return f"{n_v} faults act, and {_listed([*alone, *still], 'and')} may be among them"
     verb = "is" if len(alone) == 1 else "are"
     some = f"; only {_listed(alone, 'and')} {verb} consistent with the fault space, and more acts" if alone else ""
     return f"neither: no {n_v} sensors and actuators explain the {n_v} faults{some}"

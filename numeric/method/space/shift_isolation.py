@@ -33,11 +33,13 @@ from numpy.typing import ArrayLike
 
 from ....base.arrays import Array
 from ....base.errors import InvalidData, shorten
-from ....base.sheets import Shown, counted
+from ....base.sheets import counted
 from ....base.threads import one_thread
 from ...data.plain import plain
+from ..model.models import StateSpaceModel
+from ..model.residuals import HasModel
 from ..plotting import plot_chances
-from .isolation import CONSISTENT, EXCLUDED, RANK, WIDE, Identified, Matrices, SingleCause, answering, words_of_one
+from .isolation import CONSISTENT, EXCLUDED, RANK, WIDE, SingleCause, SingleCauses, channels, words_of_one
 
 ANGLES = 720  # of the grid on which the least statistic is looked for
 NO_GAIN = "the model has a pole on the unit circle or outside, as far as its standard errors tell: an offset has no steady response"
@@ -47,16 +49,11 @@ NO_ERRORS = "the model is of PI-MOESP, which does not tell how sure it is, so th
 
 @dataclass(frozen=True)
 class ShiftCause(SingleCause):
-    """One single cause: `kind` is "sensor" or "actuator" of `channel`; `size` is the bias in units of that output, or the offset in units
-    of that input, which explains the shift best, and `deviation` its standard deviation; `bound` in radians, which the angle between the
-    shift and what the cause makes stays below with probability 0.95, in the metric of the noise; `p_value`, the chance of so large a
-    deviation; `answer` is "consistent", "excluded" or "undecided". Numbers are None where nothing could be computed."""
+    """One single cause: `size` is the bias in units of that output, or the offset in units of that input, which explains the shift best,
+    and `deviation` its standard deviation; the angle is that between the shift and what the cause makes, in the metric of the noise."""
 
     size: float | None
     deviation: float | None
-    bound: float | None
-    p_value: float | None
-    answer: str
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict, the bound in degrees."""
@@ -72,7 +69,7 @@ class ShiftCause(SingleCause):
 
 
 @dataclass(frozen=True, repr=False)
-class ShiftIsolation(Shown):
+class ShiftIsolation(SingleCauses[ShiftCause]):
     """Which single sensors and actuators explain a shift of the mean of a residual.
 
     causes     a row for each sensor, in the order of the outputs, then for each actuator, in the order of the inputs
@@ -90,26 +87,9 @@ class ShiftIsolation(Shown):
     <ShiftIsolation: a sensor fault on y2 explains the shift, and no other single sensor or ..>
     """
 
-    causes: tuple[ShiftCause, ...]
-    answer: str
-    reason: str
     actuators: str
     samples: tuple[int, int] | None = None
     against: tuple[int, int] | None = None
-
-    @property
-    def decided(self) -> bool:
-        """Say whether the answer is one: a cause is named, or neither."""
-        return not self.reason and not (answering(self.causes, "undecided") and not answering(self.causes, "consistent"))
-
-    @property
-    def title(self) -> str:
-        """Return the answer, short enough for one line."""
-        return self.answer if len(self.answer) <= 80 else f"{self.answer[:77].rsplit(' ', 1)[0]} .."
-
-    def of(self, answer: str) -> tuple[ShiftCause, ...]:
-        """Return the causes with this answer."""
-        return tuple(cause for cause in self.causes if cause.answer == answer)
 
     def sheet(self) -> Iterator[tuple[str, str]]:
         """Yield the answer and a line for each cause."""
@@ -162,7 +142,7 @@ class _Law:
 def isolate_shift(
     shift: ArrayLike,
     covariance: ArrayLike,
-    model: Matrices | Identified,
+    model: StateSpaceModel | HasModel,
     *,
     freedom: int | None = None,
     steady: bool = True,
@@ -172,18 +152,42 @@ def isolate_shift(
 ) -> ShiftIsolation:
     """Say which single sensors and actuators explain a shift of the mean of a residual.
 
-    `shift` (p,) is by what the mean has moved, in units of y, and `covariance` (p, p) that of its errors, the noise at frequency zero and
-    the error of the model times the change of the mean of u, as `MeanShift` has it; `freedom` are the degrees of freedom that it was
-    estimated with, None where it is known. `model` is a ReducedModel, whose standard errors are those of its static gain, or a
-    StateSpaceModel with A, B, C, D of the shapes (n, n), (n, n_u), (p, n), (p, n_u), which is taken as right. `steady` says whether the
-    fault stays what it is and its onset has died out: else nothing is said of actuators, whose response is then more than the static gain.
-    `varying` (p, p) is the covariance of the mean of the residual by its own variation while the fault acts, where that is estimated: of a
-    fault that varies the mean is chance, within such errors, and of one in an actuator the static gain does not tell it.
-    `outputs` and `inputs` name the channels, by default y1, .., u1, ... A cause is "excluded" where its probability is below 0.01,
-    "consistent" where it is 0.05 or more and the bound is below half a radian, and else "undecided". Of one output all are undecided, and
-    so they are where the shift itself is not beyond chance. Raises InvalidData for shapes, names and covariances that cannot be. Source:
-    [H31], [MN89].
+    A cause is "excluded" where its probability is below 0.01, "consistent" where it is 0.05 or more and the bound is below half a radian,
+    and else "undecided". Of one output all are undecided, and so they are where the shift itself is not beyond chance. Source: [H31],
+    [MN89].
 
+    Parameters
+    ----------
+    shift : array_like, (p,)
+        By what the mean has moved, in units of y.
+    covariance : array_like, (p, p)
+        Of its errors: the noise at frequency zero and the error of the model times the change of the mean of u, as `MeanShift` has it.
+    model : ReducedModel or StateSpaceModel
+        The static gain has the standard errors of a ReducedModel; A, B, C, D of a StateSpaceModel, of the shapes (n, n), (n, n_u), (p, n),
+        (p, n_u), are taken as right.
+    freedom : int, optional
+        Degrees of freedom of the covariance; None where it is known.
+    steady : bool
+        Whether the fault stays what it is and its onset has died out: else nothing is said of actuators, whose response is then more than
+        the static gain.
+    varying : array_like (p, p), optional
+        Covariance of the mean by the residual's own variation while the fault acts, where it is estimated: of a fault that varies the mean
+        is chance, within such errors, and of one in an actuator the static gain does not tell it.
+    outputs, inputs : list of str, optional
+        Names of the channels, by default y1, .., u1, ..
+
+    Returns
+    -------
+    ShiftIsolation
+        A row for each sensor and input.
+
+    Raises
+    ------
+    InvalidData
+        Shapes, names and covariances that cannot be.
+
+    Examples
+    --------
     >>> from faultspace.numeric import StateSpaceModel, isolate_shift
     >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0], [1.0]], [[0.0], [0.0]])
     >>> isolate_shift([1.1, 0.9], [[0.01, 0.0], [0.0, 0.01]], model).answer
@@ -195,10 +199,7 @@ def isolate_shift(
     if freedom is not None and not freedom >= p:
         wanted = "at least as many are needed, or None where it is known"
         raise InvalidData(f"freedom: got {shorten(freedom)} for {counted(p, 'output')}; {wanted}")
-    names = (list(outputs or [f"y{j + 1}" for j in range(p)]), list(inputs or [f"u{j + 1}" for j in range(n_u)]))
-    for given, count, what in ((names[0], p, "outputs"), (names[1], n_u, "inputs")):
-        if len(given) != count:
-            raise InvalidData(f"{what}: got {len(given)} names for {count}; one for each is needed")
+    names = channels(outputs, inputs, p, n_u)
     law = _Law(freedom)
     whiten = np.linalg.inv(np.linalg.cholesky(V))
     wide = whiten if varying is None else np.linalg.inv(np.linalg.cholesky(V + _checked(shift, varying, p)[1]))
@@ -211,12 +212,13 @@ def isolate_shift(
     actuators = "" if not n_u else NO_ERRORS if matrices is not model and uncertainty is None else _unsteady(matrices, uncertainty, steady)
     causes = [_cause("sensor", names[0][j], d, np.eye(p)[j], np.zeros((0, p)), whiten, law, silent=bool(reason)) for j in range(p)]
     if actuators:
-        causes += [ShiftCause("actuator", name, None, None, None, None, "undecided") for name in names[1]]
+        causes += [ShiftCause("actuator", name, None, None, "undecided", None, None) for name in names[1]]
     else:
         gain, errors = _static_gain(matrices, None if uncertainty is None else uncertainty.root)
         for j, name in enumerate(names[1]):
             causes.append(_cause("actuator", name, d, gain[:, j], errors[:, :, j], wide, law, silent=bool(reason)))
-    return ShiftIsolation(tuple(causes), _words(causes, reason, actuators), reason, actuators)
+    finding = reason or words_of_one(causes, "the shift", f" ({actuators})" if actuators else "")
+    return ShiftIsolation(tuple(causes), finding, reason, actuators)
 
 
 def stays(earlier: Array, later: Array, covariance: Array, freedom: int | None) -> bool:
@@ -231,7 +233,7 @@ def positive_definite(V: Array) -> bool:
     return bool(np.all(sizes > 0) and np.linalg.eigvalsh(V / np.outer(sizes, sizes))[0] > len(V) * np.finfo(np.float64).eps)
 
 
-def gain_errors(model: Matrices | Identified | None) -> Array | None:
+def gain_errors(model: StateSpaceModel | HasModel | None) -> Array | None:
     """Return the errors (K, p, n_u) of the static gain of an identified model, whose sum of squares over K is their variance: what it makes
     of inputs whose mean moves by m is wrong by errors @ m. None where the model has no standard errors, or no static gain."""
     uncertainty = getattr(model, "uncertainty", None)
@@ -261,7 +263,7 @@ def _refusal(chance: float, p: int) -> str:
     return ""
 
 
-def _unsteady(matrices: Matrices, uncertainty: Any, steady: bool) -> str:
+def _unsteady(matrices: StateSpaceModel, uncertainty: Any, steady: bool) -> str:
     """Return why the static gain says nothing of actuators; an empty string where it does."""
     poles = np.linalg.eigvals(matrices.A) if uncertainty is None else uncertainty.model.poles
     deviations = np.zeros(len(poles)) if uncertainty is None else np.abs(uncertainty.poles())
@@ -271,7 +273,7 @@ def _unsteady(matrices: Matrices, uncertainty: Any, steady: bool) -> str:
     return "" if steady else UNSTEADY
 
 
-def _static_gain(matrices: Matrices, root: Array | None) -> tuple[Array, Array]:
+def _static_gain(matrices: StateSpaceModel, root: Array | None) -> tuple[Array, Array]:
     """Return G(1) (p, n_u) and its errors (K, p, n_u), as linear maps of the numbers of the model's root: dG(1) = L dT X with L and X of
     `invariants.py` at z = 1."""
     (p, n), n_u = matrices.C.shape, matrices.B.shape[1]
@@ -288,7 +290,7 @@ def _cause(kind: str, channel: str, d: Array, column: Array, errors: Array, whit
     """Return what is to say of one direction (p,) with these errors (K, p)."""
     size = float(np.linalg.norm(whiten @ column))
     if silent or size == 0.0:
-        return ShiftCause(kind, channel, None, None, None, None, "undecided")
+        return ShiftCause(kind, channel, None, None, "undecided", None, None)
     # In the metric of V, turned so that the errors of c are independent; c has unit length, which keeps scales out of the search.
     moved = errors @ whiten.T / size
     variances, turn = np.linalg.eigh(moved.T @ moved)
@@ -302,7 +304,7 @@ def _cause(kind: str, channel: str, d: Array, column: Array, errors: Array, whit
     bound = float(np.arctan(np.sqrt(precise.max() * law.quantile(width)) / np.linalg.norm(seen)))
     answer = "excluded" if chance < EXCLUDED else "consistent" if chance >= CONSISTENT and bound <= WIDE else "undecided"
     deviation = float(1 / np.sqrt(np.sum(aim**2 / precise)))
-    return ShiftCause(kind, channel, a / size, deviation / size, bound, chance, answer)
+    return ShiftCause(kind, channel, bound, chance, answer, a / size, deviation / size)
 
 
 def _best(d: Array, c: Array, variances: Array) -> float:
@@ -321,10 +323,3 @@ def _best(d: Array, c: Array, variances: Array) -> float:
         lambda angle: float(statistic(angle)[0]), bounds=(near - step, near + step), method="bounded", options={"xatol": 1e-12}
     )
     return float(scale * np.tan(found.x))
-
-
-def _words(causes: Sequence[ShiftCause], reason: str, actuators: str) -> str:
-    """Return the answer in plain words, in which no cause is named alone where another one is consistent too."""
-    if reason:
-        return f"undecided: {reason}"
-    return words_of_one(causes, "the shift", f" ({actuators})" if actuators else "")

@@ -43,6 +43,7 @@ from scipy.special import digamma
 
 from ....base.arrays import Array
 from ...data.validation import PIECE
+from ...method.model.arx import companion_roots
 from ...method.model.models import StateSpaceModel, lower_toeplitz, observability_matrix
 
 Reader = Callable[[int, int], Array]
@@ -278,9 +279,7 @@ def _tamed(slopes: Array, p: int, samples: int) -> Array:
     lags = len(slopes) // p
     if not lags:
         return np.ones((0, 1))
-    companion = np.eye(lags * p, k=-p)
-    companion[:p] = slopes.T
-    radius = float(np.max(np.abs(np.linalg.eigvals(companion))))
+    radius = float(np.max(np.abs(companion_roots(slopes.T))))
     most = 1 - 1 / samples
     return np.repeat((most / max(radius, most)) ** np.arange(1, lags + 1), p)[:, None]
 

@@ -7,7 +7,6 @@ the healthy samples b is a. A quantised sensor, whose healthy values repeat most
 lasts: the row says from how many samples on a run would have been seen, if any.
 
     frozen_sensors    a row for each output
-    longest_run       samples of the longest run of equal values
 """
 
 from __future__ import annotations
@@ -17,8 +16,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import scipy  # its folders are loaded when they are first used
 
-from ....base.arrays import Array
 from ....base.sheets import counted
+from ..healthy.unlike_healthy import longest_run
 from .predictor import Stretch
 from .table_rows import FREEZING, Evidence
 
@@ -40,12 +39,6 @@ def frozen_sensors(before: Stretch, after: Stretch, names: Sequence[str], level:
         visible = float(needed) if needed <= count else np.inf
         detail = f"longest run {counted(length, 'sample')}, before {longest_run(before.y[:, i])}"
         yield Evidence(FREEZING, name, chance, float(length), float(length), None, visible, None, "samples", detail)
-
-
-def longest_run(values: Array) -> int:
-    """Return the samples of the longest run of equal values."""
-    edges = np.flatnonzero(np.concatenate([[True], values[1:] != values[:-1], [True]]))
-    return int(np.diff(edges).max())
 
 
 def _at_most(hits: int, trials: int, level: float) -> float:

@@ -178,14 +178,34 @@ def fault_onset(
 ) -> FaultOnset:
     """Find the samples from which on a residual is another one: its mean, its powers, how outputs go together, or its colour.
 
-    r (N, p) is an array, a store or the ResidualSignal of `residual`, in the units of y. `healthy` says how many samples, from the first
-    on, are stated to be without fault: no onset is looked for among them, and they are what the others are held against; without it, what
-    comes before the first onset is. `level` is the chance that a stretch without a change is said to have one, at least 0.005, and
-    `confidence` that of the intervals. The residual may have any colour that an autoregression takes off, and any law: the chance is
-    counted on the residual itself. A fault that comes slowly has an onset where it begins to be seen, and more where it has grown. A change
-    of the inputs can change a residual too, where the model is not exact. Raises InvalidData for values that are not finite, and for a
-    level, a confidence or a number of healthy samples that cannot be. Source: [CG00] chapter 3, [S88], [BC91], [V81].
+    The residual may have any colour that an autoregression takes off, and any law: the chance is counted on the residual itself. A fault
+    that comes slowly has an onset where it begins to be seen, and more where it has grown. A change of the inputs can change a residual
+    too, where the model is not exact. Source: [CG00] chapter 3, [S88], [BC91], [V81].
 
+    Parameters
+    ----------
+    r : array_like (N, p), a store, or the ResidualSignal of `residual`
+        In the units of y.
+    healthy : int, optional
+        Number of first samples stated to be without fault: no onset is looked for among them, and the others are held against them; else
+        against what comes before the first onset.
+    level : float
+        Chance that a stretch without a change is said to have one, at least 0.005.
+    confidence : float in (0, 1)
+        That of the intervals.
+
+    Returns
+    -------
+    FaultOnset
+        `onsets`, each with its sample, interval and chance.
+
+    Raises
+    ------
+    InvalidData
+        Values that are not finite; a level, a confidence or a number of healthy samples that cannot be.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import fault_onset
     >>> r = np.random.default_rng(0).standard_normal((400, 2))

@@ -56,16 +56,38 @@ def changes_since_healthy(
 ) -> Changes:
     """Test what has changed in a record since its first `healthy` samples, which are without fault.
 
-    `residual` (N, p) is that of a model which was identified from these samples alone, y (N, p) and u (N, n_u) are the record, in any
-    units; `model` is this model, without which, or where it is not stable, changed gains are undecided. `outputs` and `inputs` name the
-    channels. Tested are, for each output, the mean, a drift, a growth and a loss of variance, a sensor that freezes, a sinusoid and its
-    gain, and for each input its gain. `level` in (0, 1) is the probability that any row is seen where nothing has changed; it holds for
-    residuals that a short predictor makes white, up to what `benchmarks/changes.py` measures.
+    Tested are, for each output, the mean, a drift, a growth and a loss of variance, a sensor that freezes, a sinusoid and its gain, and for
+    each input its gain. Where the healthy part is too short or has no noise, every row but that of freezing is undecided. Source: heads of
+    the modules of `numeric/plant/changes`, [C60], [F29], [LLSW18].
 
-    Raises InvalidData for NaN, lengths or names that do not fit, healthy samples that leave none to test, and a level that is none; where
-    the healthy part is too short or has no noise, every row but that of freezing is undecided. Source: heads of the modules of
-    `numeric/plant/changes`, [C60], [F29], [LLSW18].
+    Parameters
+    ----------
+    residual : array_like, (N, p)
+        Of a model that was identified from the healthy samples alone, in the units of `y`.
+    y, u : array_like, (N, p) and (N, n_u)
+        The record, in any units.
+    healthy : int
+        Number of samples without fault.
+    model : StateSpaceModel or what has one, optional
+        That model; without it, or where it is not stable, changed gains are undecided.
+    outputs, inputs : list of str, optional
+        Names of the channels.
+    level : float in (0, 1)
+        Probability that any row is seen where nothing has changed; it holds for residuals that a short predictor makes white, up to what
+        `benchmarks/changes.py` measures.
 
+    Returns
+    -------
+    Changes
+        A row for each kind and channel.
+
+    Raises
+    ------
+    InvalidData
+        NaN, lengths or names that do not fit, healthy samples that leave none to test, a level that is none.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import changes_since_healthy
     >>> draw = np.random.default_rng(1)
@@ -89,10 +111,28 @@ def changes_within(
 ) -> Changes:
     """Test whether the second half of a record differs from the first, where no samples are known to be without fault.
 
-    Asked are only a mean that has moved and sensors that are stuck, by freezing or by a loss of variance, each in units as of
-    `changes_since_healthy`; all else would take the fault for the noise. A fault that acts alike in both halves is not seen. Raises
-    InvalidData as that does. Source: [C60], [LLSW18], as of `changes_since_healthy`.
+    Asked are only a mean that has moved and sensors that are stuck, by freezing or by a loss of variance; all else would take the fault for
+    the noise. A fault that acts alike in both halves is not seen. Source: [C60], [LLSW18], as of `changes_since_healthy`.
 
+    Parameters
+    ----------
+    residual, y, u : array_like, (N, p), (N, p) and (N, n_u)
+    outputs : list of str, optional
+    level : float
+        All as of `changes_since_healthy`.
+
+    Returns
+    -------
+    Changes
+        As of `changes_since_healthy`.
+
+    Raises
+    ------
+    InvalidData
+        As `changes_since_healthy`.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import changes_within
     >>> y, u = np.random.default_rng(1).standard_normal((600, 2)), np.zeros((600, 1))

@@ -47,16 +47,35 @@ def doubts(
 ) -> Doubts:
     """Return what a record gives reason to doubt: each reason with its evidence, what it does to the answer, and what to do.
 
-    `record` is a Record of N samples, as `read_record` and `record_from` give it. `model` is what was identified from it; of a ReducedModel
-    its ARX model, its poles and its standard errors are used, and without one an ARX model is fitted here. `residual` (N, p), in units of
-    the outputs, is looked through for outliers where no ARX model can be had. `dt` is the sample time in seconds as it was stated;
-    `means_removed` says that the channels are about their means already.
-
     Every test raises a doubt without reason in one clean record of a thousand at most, all channels together; what is no test is a plain
     fact. Doubts are no refusals: the answer stays, and says less. `python benchmarks/doubts.py` measures both kinds of error. Source:
-    [H76], [LB78] for the test of a closed loop; [L99, ch. 16] for tests on what a model leaves. Raises InvalidData where `record` is none,
-    or where `residual` has other samples or channels.
+    [H76], [LB78] for the test of a closed loop; [L99, ch. 16] for tests on what a model leaves.
 
+    Parameters
+    ----------
+    record : Record
+        N samples, as `read_record` and `record_from` give them.
+    model : ReducedModel, MoespModel or StateSpaceModel, optional
+        What was identified from it; of a ReducedModel its ARX model, poles and standard errors are used, else an ARX model is fitted.
+    residual : array_like (N, p), optional
+        In units of the outputs; looked through for outliers where no ARX model can be had.
+    dt : float, optional
+        Sample time in seconds, as it was stated.
+    means_removed : bool
+        Whether the channels are about their means already.
+
+    Returns
+    -------
+    Doubts
+        A row for each reason.
+
+    Raises
+    ------
+    InvalidData
+        Where `record` is none, or `residual` has other samples or channels.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, doubts, record_from
     >>> u, noise = np.random.default_rng(1).standard_normal((2, 800, 1))

@@ -16,10 +16,10 @@ and normal about zero, s' (sum_b s_b s_b')^-1 s over the number of blocks is a b
 record, as it does where a fault sets in, is in the denominator too.
 
 Bursts. Where the power of noise comes and goes, large errors follow large ones, though no error is foretold: |e| has autocorrelations,
-which errors of a linear model do not disturb [ML83]. They are taken of the normal scores of the ranks of |e|, which no law of e changes,
-and those of NEAR lags are held against those of as many FAR ones. A power that rises once, as where a fault sets in, and its colour are no
-bursts: either side of the sample where sums of scores lie farthest off has an autoregression and a mean score of its own. The difference,
-of 2 NEAR of about equal variance 1 / T, is normal.
+which errors of a linear model do not disturb, as those of e^2 [ML83]. They are taken of the normal scores of the ranks of |e|, which no
+law of e changes, and those of NEAR lags are held against those of as many FAR ones. A power that rises once, as where a fault sets in,
+and its colour are no bursts: either side of the sample where sums of scores lie farthest off has an autoregression and a mean score of its
+own. The difference, of 2 NEAR of about equal variance 1 / T, is normal.
 
 Outliers are held against the medians of |e| over WINDOW samples before and after them, the larger of both, so that a fault that comes or
 goes is none. The median of normal numbers is normal about its value, with the variance of order statistics, so that e beyond t medians has

@@ -183,13 +183,32 @@ class FaultDirection(Shown):
 def fault_dimension_against_healthy(
     r: ArrayLike, healthy: HealthyReference, *, u: ArrayLike | None = None, level: float = HEALTHY_LEVEL
 ) -> FaultsAgainstHealthy:
-    """Count the faults in a residual r (N, p) that the healthy record does not explain.
+    """Count the faults in a residual that the healthy record does not explain.
 
-    r has N samples in the units of the healthy record; give u (N, n_u) as well if the reference was learnt with inputs.
+    Source: [K64], [RS95].
 
-    `level` (0, 1): probability of counting too many by chance, turning directions apart. Raises InvalidData where r does not fit the
-    reference. Sources: [K64], [RS95].
+    Parameters
+    ----------
+    r : array_like, (N, p)
+        N samples in the units of the healthy record.
+    healthy : HealthyReference
+    u : array_like (N, n_u), optional
+        Needed where the reference was learnt with inputs.
+    level : float in (0, 1)
+        Probability of counting too many by chance, turning directions apart.
 
+    Returns
+    -------
+    FaultsAgainstHealthy
+        `n_v`, None where it is undecided, and `at_least`.
+
+    Raises
+    ------
+    InvalidData
+        Where r does not fit the reference.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import fault_dimension_against_healthy, healthy_reference
     >>> noise = np.random.default_rng(1).standard_normal((2000, 3))
@@ -258,12 +277,34 @@ def fault_direction_against_healthy(
     C: ArrayLike | None = None,
     u: ArrayLike | None = None,
 ) -> FaultDirection:
-    """Return [F; G] and the signal of one fault in r (N, p); A (n, n), C (p, n) of the model, or neither for a fault at the outputs alone.
+    """Return the column [F; G] and the signal of the one fault in a residual.
 
     The sign and the split of size between z and the signal are free: z has unit norm in the given units. With zeros in the fault model
-    (zeta > 0) other members of the fault space fit as well. Raises InvalidData where shapes do not fit. Needs memory for (N / 2) p (n + p)
-    complex numbers. Source: [RS95] for the tapers that the noise is learnt with.
+    (zeta > 0) other members of the fault space fit as well. Needs memory for (N / 2) p (n + p) complex numbers. Source: [RS95] for the
+    tapers that the noise is learnt with.
 
+    Parameters
+    ----------
+    r : array_like, (N, p)
+        In the units of the healthy record.
+    healthy : HealthyReference
+    A, C : array_like, (n, n) and (p, n), optional
+        Of the model; neither for a fault at the outputs alone.
+    u : array_like (N, n_u), optional
+        Needed where the reference was learnt with inputs.
+
+    Returns
+    -------
+    FaultDirection
+        The column z (n + p,) and the signal.
+
+    Raises
+    ------
+    InvalidData
+        Where shapes do not fit.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import fault_direction_against_healthy, healthy_reference
     >>> noise = np.random.default_rng(1).standard_normal((2000, 3))

@@ -27,6 +27,7 @@ decides nothing.
     HealthyReference    `innovations` and `spectra` of any record, `response` A(f) of the predictor, the `covariances`
     Spectra, spectra    tapered transforms of a record at their centres
     covering_spectra    the same, with no frequency left out
+    noise_share         how much of mere noise n_v signals explain at most
 """
 
 from __future__ import annotations
@@ -45,8 +46,7 @@ from ....base.sheets import Shown, counted
 from ....base.threads import one_thread
 from ...data.plain import plain
 from ...data.validation import signal
-from ...method.ranks.sample_windows import channel_sizes
-from ...method.ranks.triangles import stacked_triangle
+from ...method.ranks.sample_windows import channel_sizes, stacked_triangle
 from .largest_root import largest_root_quantile
 
 Complex = NDArray[np.complex128]
@@ -252,14 +252,30 @@ class HealthyReference(Shown):
 
 @one_thread()
 def healthy_reference(healthy: ArrayLike, u: ArrayLike | None = None, *, level: float = HEALTHY_LEVEL) -> HealthyReference:
-    """Learn from a healthy residual (N, p) and, where given, its inputs u (N, n_u), each channel in any units.
+    """Learn the noise of a healthy residual and, where given, of what its inputs make of the model's error.
 
-    `level` is that of the quantiles that strain is measured in.
+    Source: [BT94] for the number of lags, [RS95] for the tapers.
 
-    Raises InvalidData for NaN, fewer than 64 samples a channel, or channels that are constant or exact combinations of others (there
-    is no noise to compare with; `fault_dimension` counts the faults of such residuals). Sources: [BT94] for the number of lags, [RS95] for
-    the tapers.
+    Parameters
+    ----------
+    healthy : array_like, (N, p)
+        Each channel in any units.
+    u : array_like (N, n_u), optional
+    level : float in (0, 1)
+        Of the quantiles that strain is measured in.
 
+    Returns
+    -------
+    HealthyReference
+
+    Raises
+    ------
+    InvalidData
+        NaN, fewer than 64 samples a channel, channels that are constant or exact combinations of others (there is no noise to compare with;
+        `fault_dimension` counts the faults of such residuals).
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import healthy_reference
     >>> noise = np.random.default_rng(1).standard_normal((2000, 3))
@@ -407,3 +423,21 @@ def _covariances(record: Spectra, share: float) -> tuple[Array, Complex, int]:
     starts = np.clip(np.arange(count) - width // 2, 0, count - width)
     freedom = share * tapers * width
     return record.frequencies, np.asarray((sums[starts + width] - sums[starts]) / freedom), int(freedom)
+
+
+def noise_share(r: ArrayLike, n_v: int, units: Array, *, healthy: bool) -> float:
+    """Return the share that n_v <= p signals could explain of noise, r (N, p) in `units` (p,); `healthy`: r is a residual without fault.
+
+    Otherwise only the spectrum of each output is taken from r. At each frequency the signals of one F, G reach one n_v-dimensional subspace
+    of the outputs, and of noise of spectrum Phi(f) no such subspace holds more than the n_v largest eigenvalues of Phi(f). Summed over the
+    frequencies this bounds what any F, G explain of noise: a share below it is no sign of a fault. Many tapers make the largest eigenvalues
+    larger, and so the bound. Raises InvalidData for fewer than 4 MANY_TAPERS samples.
+    """
+    residual = signal(r, "r") / units
+    if len(residual) < 4 * MANY_TAPERS:
+        raise InvalidData(f"r has {counted(len(residual), 'sample')}; at least {4 * MANY_TAPERS} are needed for its spectra: record more")
+    x = spectra(residual - residual.mean(axis=0), MANY_TAPERS).transforms
+    alone = np.sort(np.sum(np.abs(x) ** 2, axis=1), axis=1)
+    powers = np.linalg.eigvalsh(x.conj().transpose(0, 2, 1) @ x) if healthy else alone
+    total = float(powers.sum())
+    return float(powers[:, -n_v:].sum()) / total if total else 1.0

@@ -37,6 +37,7 @@ from numpy.typing import ArrayLike
 from ....base.arrays import Array
 from ....base.errors import InvalidData
 from ....base.sheets import counted
+from ...method.model.arx import companion_roots
 from ...method.ranks.sample_windows import channel_sizes
 from .healthy_model import HEALTHY_LEVEL, lagged, number_of_lags, residual_and_inputs
 
@@ -311,10 +312,7 @@ def nearest_root(steps: list[Array]) -> float:
     """Return the least |1 - z| over the roots z of the predictor."""
     if not steps:
         return 1.0
-    p, lags = len(steps[0]), len(steps)
-    companion = np.eye(p * lags, k=-p)
-    companion[:p] = np.hstack(steps)
-    return float(np.abs(1.0 - np.linalg.eigvals(companion)).min())
+    return float(np.abs(1.0 - companion_roots(np.hstack(steps))).min())
 
 
 def _sizes(u: Array) -> Array:

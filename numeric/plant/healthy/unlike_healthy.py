@@ -76,8 +76,8 @@ def unlike_healthy(r: Array, healthy: Array, y: Array, healthy_y: Array, names: 
             return f"the residual of {shorten(name)} reaches {times:.3g} times its healthy peak: a short fault, or an outlier"
         if np.sqrt(np.mean(r[:, i] ** 2)) < QUIET * sizes[i]:
             return f"the residual of {shorten(name)} is much smaller than while healthy: a sensor that is stuck or dead, or less noise"
-        still = _longest_still(y[:, i])
-        if still > longest * _longest_still(healthy_y[:, i]):
+        still = longest_run(y[:, i])
+        if still > longest * longest_run(healthy_y[:, i]):
             return f"{shorten(name)} keeps one value for {still} samples: a sensor that is stuck or dead, or nothing that moves it"
     return ""
 
@@ -90,7 +90,7 @@ def largest_ratio(healthy: int, later: int) -> float:
     return float(np.log(2 * later / HEALTHY_LEVEL)) / scales if scales > 0.0 else np.inf
 
 
-def _longest_still(values: Array) -> int:
-    """Return samples of the longest run of equal values."""
+def longest_run(values: Array) -> int:
+    """Return the samples of the longest run of equal values."""
     edges = np.flatnonzero(np.concatenate([[True], values[1:] != values[:-1], [True]]))
     return int(np.diff(edges).max())

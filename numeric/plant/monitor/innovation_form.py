@@ -33,7 +33,7 @@ from ....base.arrays import Array
 from ....base.errors import InvalidData
 from ....base.sheets import counted
 from ...method.model.models import StateSpaceModel, observability_matrix
-from ...method.ranks.triangles import stacked_triangle
+from ...method.ranks.sample_windows import stacked_triangle
 from ..healthy.healthy_model import lagged_stretches, number_of_lags
 
 CANDIDATES = (1e-6, 1e-4, 1e-2, 1.0, 1e2)  # for q, beside 0

@@ -122,7 +122,7 @@ def tiles(answer: Answer) -> Iterator[Tile]:
         yield Tile(
             "Fault space",
             "found" if space.decided else "undecided",
-            rests if space.decided else space.reason.removeprefix("undecided: "),
+            rests if space.decided else space.why,
             space.decided,
         )
     if answer.explained is not None and answer.by_noise is not None:
@@ -165,7 +165,7 @@ def _causes(answer: Answer) -> Iterator[Tile]:
     if shift is not None and shift.decided:
         yield Tile("Cause", shift.answer, "This is told by the direction in which the mean of the residual moved.")
     elif isolation is not None:
-        if isolation.answer.startswith("undecided"):
-            yield Tile("Cause", "undecided", isolation.answer.removeprefix("undecided: "), False)
-        else:
+        if isolation.decided:
             yield Tile("Cause", isolation.answer, "This is told by the fault space.")
+        else:
+            yield Tile("Cause", "undecided", isolation.finding, False)

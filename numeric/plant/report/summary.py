@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 from ....base.arrays import Array
 from ....base.errors import quote_path
 from ....base.others_text import as_markdown, printable
-from ....base.sheets import counted
+from ....base.sheets import counted, or_undecided, several
 from ...method.model.invariants import half_transfers, system_matrix
 from ...method.model.reduced_model import ReducedModel
 from ..healthy.mean_shift import POWER
@@ -241,8 +241,8 @@ def _healthy_lines(answer: Answer) -> Iterator[str]:
         return
     first, until = answer.counted_against
     taken = f"; taken: {answer.counted_by}" if answer.counted_by else ""
-    yield f"against the healthy samples {first} to {until - 1}: {_said(against.n_v)} ({against.reason})"
-    yield f"from the residual alone: {_said(alone.n_v)} ({alone.reason}){taken}" if alone else f"from the residual alone: none{taken}"
+    yield f"against the healthy samples {first} to {until - 1}: {or_undecided(against.n_v)} ({against.reason})"
+    yield f"from the residual alone: {f'{or_undecided(alone.n_v)} ({alone.reason})' if alone else 'none'}{taken}"
 
 
 def _changed_all_the_same(answer: Answer) -> Iterator[str]:
@@ -271,7 +271,7 @@ def _law_lines(answer: Answer) -> Iterator[str]:
     if count.noise_power is not None:
         yield f"noise that the laws leave, deviation: {_by_output(answer, np.sqrt(count.noise_power))}"
     if ranks is not None:
-        yield f"from the ranks of the residual, for comparison: {_said(ranks.n_v)} ({ranks.reason})"
+        yield f"from the ranks of the residual, for comparison: {or_undecided(ranks.n_v)} ({ranks.reason})"
 
 
 def _condition(answer: Answer) -> str:
@@ -319,10 +319,6 @@ def _visible_lines(answer: Answer) -> Iterator[str]:
     for kind, sizes in kinds:
         if sizes is not None:
             yield f"seen with a chance of {POWER:g} (level {mean.level:g}), {kind}: {_by_output(answer, sizes)}"
-
-
-def _said(number: int | None) -> str:
-    return "undecided" if number is None else str(number)
 
 
 def _space_lines(answer: Answer) -> Iterator[str]:
@@ -377,7 +373,7 @@ def _signal_lines(answer: Answer) -> Iterator[str]:
         return
     first, last = signal.trusted
     N = len(record)
-    delay = "not determined by the outputs" if signal.delay is None else _counted(signal.delay, "sample")
+    delay = "not determined by the outputs" if signal.delay is None else counted(signal.delay, "sample")
     yield f"delay until it is seen in the outputs, the state being unknown: {delay}"
     if first >= last:
         yield f"determined: **no sample** ({signal.reason})"
@@ -445,13 +441,8 @@ def _candidates(values: Array) -> str:
     return ", ".join(f"{ratios[k]:.3g} at {k + 1}" for k in best) or "none"
 
 
-def _counted(number: int, word: str) -> str:
-    return f"{number} {word}{'' if number == 1 else 's'}"
-
-
 def _listed(values: ArrayLike, most: int = MOST_ROWS) -> str:
-    digits = [_number(value) for value in np.asarray(values).ravel()]
-    return ", ".join(digits[:most]) + (f", ... ({len(digits)} in all)" if len(digits) > most else "")
+    return several([_number(value) for value in np.asarray(values).ravel()], most)
 
 
 def _number(value: Any) -> str:
@@ -461,7 +452,7 @@ def _number(value: Any) -> str:
 
 
 def _several(names: Sequence[str]) -> str:
-    return ", ".join(names[:MOST_ROWS]) + (f", ... ({len(names)} in all)" if len(names) > MOST_ROWS else "")
+    return several(names, MOST_ROWS)
 
 
 def _matrix(matrix: Array) -> list[str]:

@@ -22,7 +22,7 @@ from ...method.space.shift_isolation import ShiftIsolation, gain_errors, isolate
 from ..changes.onset import FaultOnset, fault_onset
 from ..healthy.mean_shift import MeanShift, mean_about_zero, mean_shift
 from .choice import MEANS_FROM, noise_mix
-from .elsewhere import doubt_of_means
+from .explaining import doubt_of_means
 from .findings import Begun, Causes, Counted, Explained, Space
 
 SETTLED = 1e-4  # of the response to a step, what may be left where its mean is taken for the steady one

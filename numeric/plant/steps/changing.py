@@ -22,7 +22,7 @@ from ..changes.predictor import LEARNT_FROM, Stretch
 from ..changes.table import Changes
 from ..changes.table_rows import MEAN
 from ..changes.testing import CHANGES_LEVEL, RAW, changes_within, parameters, responses, table
-from .elsewhere import doubt_of_means
+from .explaining import doubt_of_means
 from .findings import Because, Count, Explained, Reason
 
 Tables = Sequence[Changes | None]

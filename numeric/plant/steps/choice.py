@@ -28,10 +28,11 @@ from ...method.rows.known_noise import space_in_known_noise, whitening
 from ...method.rows.space_by_rows import BEYOND, fault_space_by_rows, identified_fault_space
 from ...method.signal.reconstruction import Reconstruction, reconstruct_fault
 from ...method.signal.residual_sizes import loudest
-from ...method.space.by_ranks import FaultSpaceEstimate, told_fault_space
+from ...method.space.by_ranks import told_fault_space
+from ...method.space.estimate import FaultSpaceEstimate
 from ..changes.table_rows import FREEZING, LOSS
 from ..doubt.listing import named
-from ..healthy.explained_share import noise_share
+from ..healthy.healthy_model import noise_share
 from .explaining import looked_at, most_moved
 from .findings import Counted, CountedBy, Explained, Signal, Signals, Space
 
@@ -75,7 +76,7 @@ def space_of(plant: Explained, found: Counted, on_progress: Progress) -> Space:
     if not plant.exact or isinstance(model, ReducedModel):
         space = _by_laws(plant, found, faults)
         if isinstance(space, FaultSpaceEstimate):
-            return Space(replace(space, reason=f"{space.reason}; n_v as {told}"))
+            return Space(replace(space, finding=f"{space.finding}; n_v as {told}"))
         notes = (f"the fault space is from the residual: {space}",)
     try:
         space = told_fault_space(beyond_rounding(plant), model.model.A, model.model.C, n_v=faults, told=told)
@@ -84,7 +85,7 @@ def space_of(plant: Explained, found: Counted, on_progress: Progress) -> Space:
     if space.method == "likelihood":
         notes += (FROM_IDENTIFIED,)
     if plant.exact and not plant.healthy:
-        space = replace(space.in_doubt(ESTIMATED), error_bound=None)
+        space = replace(space, decided=False, doubts=(ESTIMATED, *space.doubts), error_bound=None)
     return Space(space, notes)
 
 

@@ -39,8 +39,7 @@ from ..healthy.news import news_beyond_healthy
 from ..healthy.unlike_healthy import beyond_healthy_inputs, unlike_healthy
 from .changing import beside_changes, changes_in, unlike_healthy_ranks
 from .choice import MEANS_FROM, ROUNDING, about_own_means, beyond_rounding, largest
-from .elsewhere import doubt_of_means
-from .explaining import looked_at, most_held
+from .explaining import doubt_of_means, looked_at, most_held
 from .findings import Because, Count, Counted, CountedBy, Explained, Reason
 from .words import said
 
@@ -274,9 +273,7 @@ def _mean_against(plant: Explained, after: tuple[Array, Array], before: tuple[Ar
     return replace(mean, shifted=None, reason=doubt, visible=None) if doubt else mean
 
 
-def _news(
-    plant: Explained, onset: FaultOnset | None, r: Array, u: Array, healthy: Array, before: Array, faults: int
-) -> int | None:
+def _news(plant: Explained, onset: FaultOnset | None, r: Array, u: Array, healthy: Array, before: Array, faults: int) -> int | None:
     """Return how many of so many faults are more than residual and inputs foretell, in the longest stretch between two onsets: a predictor
     that is fitted over a jump has all of its coefficients bent. Where these are too short it is the whole."""
     last, (first, stop) = slice(-MEANS_FROM, None), plant.held

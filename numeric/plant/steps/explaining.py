@@ -4,6 +4,9 @@ long_enough    the record without the experiments that are too short for a part 
 explained      the residual of all samples, each experiment from its own state, and the experiments as parts
 looked_at      the samples that what cannot go across experiments is asked of; most_moved: the part that they are of
 most_held      how many samples faults are counted on
+doubt_of_means why a mean of the residual need not be that of the samples before, or nothing: where the inputs rest elsewhere a linear model
+               foretells it up to the errors of its static gain, which the tests of means have in their variance; the doubt stays where
+               these are not known, where inputs vary more or rest where they have not been, and where the plant is seen to be curved
 
 A part has the healthy samples before its own where some are stated, and model, number of faults and fault space are those of the whole.
 One experiment has no parts: it is its own.
@@ -17,6 +20,7 @@ from typing import TypeVar
 import numpy as np
 
 from ....base.arrays import Array
+from ....base.errors import InvalidData
 from ....base.progress import Progress
 from ....base.sheets import counted
 from ...data.joining import joined
@@ -26,6 +30,9 @@ from ...method.model.moesp_model import MoespModel
 from ...method.model.reduced_model import ReducedModel
 from ...method.model.residuals import ResidualSignal, growing_modes, residual
 from ...method.signal.residual_sizes import ResidualSizes, loudest, residual_sizes
+from ...method.space.shift_isolation import gain_errors
+from ..doubt.asking import doubts
+from ..healthy.unlike_healthy import beyond_healthy_inputs, beyond_healthy_levels
 from .findings import Answer, Explained, Measured
 
 Looked = TypeVar("Looked", Explained, Answer)
@@ -54,9 +61,7 @@ def long_enough(record: Record, block_rows: int) -> tuple[Record, tuple[str, ...
     return replace(side_by_side(kept), offset=record.offset, clock=record.clock), (note,)
 
 
-def explained(
-    measured: Measured, found: MoespModel | ReducedModel, exact: bool, block_rows: int, on_progress: Progress
-) -> Explained:
+def explained(measured: Measured, found: MoespModel | ReducedModel, exact: bool, block_rows: int, on_progress: Progress) -> Explained:
     """Return what the model leaves of the record, with a part for each experiment where there are several; a healthy record is none."""
     record, healthy = measured.record, measured.healthy
     with np.errstate(over="ignore", invalid="ignore"):  # outliers beyond all numbers are told by what they leave
@@ -205,3 +210,26 @@ def most_moved(plant: Looked) -> Looked:
     first = looked_at(plant)[0]
     bounds = plant.record.bounds[1 if plant.healthy_record else 0 :]
     return plant.parts[next(number for number, (start, stop) in enumerate(bounds) if start <= first < stop)]
+
+
+CURVED = "non-linearity"  # the kind of doubt
+
+
+def doubt_of_means(plant: Explained, until: int, before: Array, u: Array) -> str:
+    """Say why the mean of the residual for inputs u (M, n_u) need not be that for `before` (K, n_u), which are of samples before `until`;
+    it is empty where nothing speaks for it."""
+    driven = beyond_healthy_inputs(before, u, plant.record.inputs)
+    if not driven:
+        return ""
+    if gain_errors(plant.model) is None:
+        return driven
+    elsewhere = beyond_healthy_levels(before, u, plant.record.inputs)
+    if elsewhere:
+        return elsewhere
+    try:
+        raised = doubts(plant.record.beginning(until), plant.model, means_removed=plant.means_removed)
+    except (InvalidData, np.linalg.LinAlgError):  # so few samples that nothing can be asked
+        return driven
+    if CURVED in raised.unasked or any(row.kind == CURVED for row in raised):
+        return f"{driven}, for the plant may be curved"
+    return ""

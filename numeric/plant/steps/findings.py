@@ -32,7 +32,7 @@ from ...method.ranks.rank_gap import FaultDimension
 from ...method.rows.fault_count import FaultCount
 from ...method.signal.reconstruction import Reconstruction
 from ...method.signal.residual_sizes import ResidualSizes
-from ...method.space.by_ranks import FaultSpaceEstimate
+from ...method.space.estimate import FaultSpaceEstimate
 from ...method.space.isolation import Isolation
 from ...method.space.shift_isolation import ShiftIsolation
 from ..changes.onset import FaultOnset

@@ -9,7 +9,7 @@ exact all the same, and so is the count; the model is reduced under the covarian
 Under noise PI-MOESP is far from what the data hold, and the reduction [W89] comes near it. Ranks tell the kinds of record apart
 (`method/ranks/exactness.py`). PI-MOESP also stands in where the windows of an ARX model cannot be had: too few samples, an input that does
 not excite them, an unstable plant. Where it finds no gap in its singular values, the reduction chooses the order, and where there is none
-either, samples held back do (`method/model/held_out_orders.py`), so that there is a model whenever one is better than none.
+either, samples held back do (`method/model/order_choice.py`), so that there is a model whenever one is better than none.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from ...data.records import Passes, Record
 from ...data.validation import experiment
 from ...method.model.arx_windows import longest_lag
 from ...method.model.asymptotic_likelihood import reduction
-from ...method.model.held_out_orders import order_left_open
 from ...method.model.moesp_model import OrderUndecided
+from ...method.model.order_choice import order_left_open
 from ...method.model.past_inputs import pi_moesp_experiments
 from ...method.model.reduction_starts import hankel_factors
 from ...method.ranks.exactness import SCREENED, driven_exactly, obeys_exactly

@@ -28,7 +28,7 @@ from faultspace.numeric.audit.vectors.rationals import floats, fractions, matrix
 from faultspace.numeric.audit.vectors.shipped_vectors import shipped
 from faultspace.numeric.audit.vectors.trouble import SEED, VERSION, Trouble, default_troubles, document, fingerprint
 from faultspace.numeric.method.model.models import StateSpaceModel
-from faultspace.numeric.study.rounding.conditioning import ModelError
+from faultspace.numeric.study.conditioning import ModelError
 from tests.thorough import every
 
 SHIPPED = json.loads(files("faultspace.numeric.audit.vectors").joinpath("data/trouble.json").read_text("utf-8"))

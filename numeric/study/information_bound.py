@@ -16,14 +16,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ....base.arrays import Array
-from ....base.errors import InvalidData
-from ....base.threads import one_thread
-from ...data.validation import positive
-from ...method.model.invariants import system_matrix
-from ...method.model.models import StateSpaceModel
-from ...method.model.uncertainty import Uncertainty, uncertainty_of
-from ...method.model.weighted_reduction import Reduction, circle, spectral_radius
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from ...base.threads import one_thread
+from ..data.validation import positive
+from ..method.model.invariants import system_matrix
+from ..method.model.models import StateSpaceModel
+from ..method.model.uncertainty import Uncertainty, uncertainty_of
+from ..method.model.weighted_reduction import Reduction, circle, spectral_radius
 from .driving_spectra import Spectra
 
 COARSE, FINE = 128, 1 << 15
@@ -35,14 +35,31 @@ COUNT = 20
 def cramer_rao(model: StateSpaceModel, spectra: Spectra, N: int) -> Uncertainty:
     """Compute the least standard deviations of an unbiased estimate of a stable, minimal model from N samples [W53].
 
-    `spectra` gives the input's spectrum (M, n_u, n_u) and the disturbance's (M, p, p), faults and noise, in the squared units of u and y.
-    The result has those of Markov parameters, transfer function and poles in the units of y / u. Angles are doubled until the information
-    matrix stays the same. Raises InvalidData for a model that is not stable, spectra that do not fit it, and a disturbance without power
-    in some direction.
+    Angles are doubled until the information matrix stays the same.
 
+    Parameters
+    ----------
+    model : StateSpaceModel
+    spectra : Spectra
+        Of the input (M, n_u, n_u), and of the disturbance (M, p, p), faults and noise, in the squared units of u and y.
+    N : int
+        Number of samples.
+
+    Returns
+    -------
+    Uncertainty
+        Of Markov parameters, transfer function and poles, in the units of y / u.
+
+    Raises
+    ------
+    InvalidData
+        A model that is not stable, spectra that do not fit it, a disturbance without power in some direction.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import Spectra, StateSpaceModel, cramer_rao
-    >>> from faultspace.numeric.study.bound.driving_spectra import white
+    >>> from faultspace.numeric.study.driving_spectra import white
     >>> static = StateSpaceModel(np.zeros((0, 0)), np.zeros((0, 1)), np.zeros((1, 0)), [[2.0]])
     >>> cramer_rao(static, Spectra(white([[4.0]]), white([[1.0]])), 100).markov(1).tolist()
     [[[0.05]]]

@@ -31,11 +31,11 @@ from typing import Any
 
 import numpy as np
 
-from ....base.arrays import Array
-from ...method.model.compression import EPS, Compression
-from ...method.model.models import BLOCK, StateSpaceModel, observability_matrix
-from ...method.model.moesp_model import MoespModel
-from ...method.model.past_inputs import output_scale
+from ...base.arrays import Array
+from ..method.model.compression import EPS, Compression
+from ..method.model.models import BLOCK, StateSpaceModel, observability_matrix
+from ..method.model.moesp_model import MoespModel
+from ..method.model.past_inputs import output_scale
 
 UNIT = EPS / 2
 SMALL = 10.0

@@ -18,10 +18,10 @@ from typing import Any
 
 import numpy as np
 
-from ....base.arrays import Array
-from ...method.model.compression import EPS
-from ...method.model.models import BLOCK, StateSpaceModel, observability_matrix
-from ...method.signal.reconstruction import Reconstruction
+from ...base.arrays import Array
+from ..method.model.compression import EPS
+from ..method.model.models import BLOCK, StateSpaceModel, observability_matrix
+from ..method.signal.reconstruction import Reconstruction
 from .conditioning import SMALL, UNIT, reflections_error
 
 DETERMINED = 1e-10  # of the largest singular value of [O_N T_N]: below it a direction is one that no sample shows

@@ -18,9 +18,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ....base.arrays import Array
-from ...method.model.invariants import half_transfers, system_matrix
-from ...method.model.models import StateSpaceModel
+from ...base.arrays import Array
+from ..method.model.invariants import half_transfers, system_matrix
+from ..method.model.models import StateSpaceModel
 
 ComplexArray = NDArray[np.complex128]
 Spectrum = Callable[[Array], ComplexArray]
@@ -35,7 +35,7 @@ class Spectra:
 
     >>> import numpy as np
     >>> from faultspace.numeric import Spectra
-    >>> from faultspace.numeric.study.bound.driving_spectra import filtered, white
+    >>> from faultspace.numeric.study.driving_spectra import filtered, white
     >>> spectra = Spectra(input=white([[4.0]]), disturbance=filtered([1.0], [1.0, -0.5]))
     >>> spectra.disturbance(np.array([0.0]))[0, 0, 0].real.round(6).tolist()
     4.0

@@ -31,17 +31,17 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import ArrayLike, NDArray
 
-from ....base.arrays import Array
-from ....base.errors import InvalidData
-from ....base.sheets import counted
-from ....base.threads import one_thread
-from ...data.validation import positive
-from ...method.model.invariants import half_transfers, off_gauge, system_matrix
-from ...method.model.models import StateSpaceModel, observability_matrix
-from ...method.model.weighted_reduction import Reduction, circle, spectral_radius
-from ...method.ranks.sample_windows import ObservedCoordinates, observed_coordinates
-from ...method.space.estimate import SpaceUncertainty, kernel_conditions
-from ...method.space.space_uncertainty import turned_by_model, turned_by_rows
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from ...base.sheets import counted
+from ...base.threads import one_thread
+from ..data.validation import positive
+from ..method.model.invariants import half_transfers, off_gauge, system_matrix
+from ..method.model.models import StateSpaceModel, observability_matrix
+from ..method.model.weighted_reduction import Reduction, circle, spectral_radius
+from ..method.ranks.sample_windows import ObservedCoordinates, observed_coordinates
+from ..method.space.estimate import SpaceUncertainty, kernel_conditions
+from ..method.space.space_uncertainty import turned_by_model, turned_by_rows
 from .driving_spectra import Spectrum, through
 from .information_bound import COARSE, FINE, SAME_INTEGRAL
 
@@ -54,11 +54,11 @@ class FaultSpectra:
     """The bound of a fault space is computed from these spectra of the input, of the faults and of the noise [L99].
 
     Each is a function of angles (M,) in radians a sample. `input` returns an array of the shape (M, n_u, n_u) in squared units of u,
-    `faults` (M, n_v, n_v) and `noise` (M, p, p) in squared units of y; `faultspace.numeric.study.bound.driving_spectra` has functions that
+    `faults` (M, n_v, n_v) and `noise` (M, p, p) in squared units of y; `faultspace.numeric.study.driving_spectra` has functions that
     make them. Raises nothing.
 
     >>> from faultspace.numeric import FaultSpectra
-    >>> from faultspace.numeric.study.bound.driving_spectra import filtered, white
+    >>> from faultspace.numeric.study.driving_spectra import filtered, white
     >>> spectra = FaultSpectra(white([[1.0]]), filtered([1.0], [1.0, -0.5]), white([[0.01]]))
     >>> spectra.faults([0.0])[0, 0, 0].real.round(6).tolist()
     4.0
@@ -73,16 +73,37 @@ class FaultSpectra:
 def fault_space_bound(model: StateSpaceModel, F: ArrayLike, G: ArrayLike, spectra: FaultSpectra, N: int) -> SpaceUncertainty:
     """Compute the least error of an unbiased estimate of the fault space from N samples [SN90].
 
-    The model (A, B, C, D) is stable and minimal, its fault matrices F have the shape (n, n_v) and G (p, n_v), n_v < p. `spectra` are those
-    of the input, of the faults and of the noise. The result is the error of an orthonormal basis (n + p, n_z) of the fault space in the
-    states of the model and the units of y: `angle(confidence)` in radians, `distance(confidence)`. The number of zeros is known. The states
-    of an estimate are mapped to those of the model by least squares, as `method/space/space_uncertainty.py` says. Raises InvalidData for a
-    model that is not stable, shapes that do not fit, dependent faults, as many faults as outputs, and noise without power in some
-    direction.
+    The number of zeros is known. The states of an estimate are mapped to those of the model by least squares, as
+    `method/space/space_uncertainty.py` says.
 
+    Parameters
+    ----------
+    model : StateSpaceModel
+        Stable and minimal.
+    F, G : array_like, (n, n_v) and (p, n_v)
+        n_v < p.
+    spectra : FaultSpectra
+        Of the input, of the faults and of the noise.
+    N : int
+        Number of samples.
+
+    Returns
+    -------
+    SpaceUncertainty
+        Error of an orthonormal basis (n + p, n_z) in the states of the model and the units of y: `angle(confidence)` in radians,
+        `distance(confidence)`.
+
+    Raises
+    ------
+    InvalidData
+        A model that is not stable, shapes that do not fit, dependent faults, as many faults as outputs, noise without power in some
+        direction.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from faultspace.numeric import FaultSpectra, StateSpaceModel, fault_space_bound
-    >>> from faultspace.numeric.study.bound.driving_spectra import white
+    >>> from faultspace.numeric.study.driving_spectra import white
     >>> static = StateSpaceModel(np.zeros((0, 0)), np.zeros((0, 1)), np.zeros((2, 0)), [[1.0], [2.0]])
     >>> spectra = FaultSpectra(white([[1.0]]), white([[1.0]]), white(0.0001 * np.eye(2)))
     >>> bound = fault_space_bound(static, np.zeros((0, 1)), [[1.0], [0.0]], spectra, 100)

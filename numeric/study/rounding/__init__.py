@@ -1,1 +1,0 @@
-"""How far rounding may carry the answers."""
