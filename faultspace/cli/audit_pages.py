@@ -17,7 +17,7 @@ from rich.text import Text
 from ..base.errors import quote_path
 from ..numeric.audit.outcome import Audit, FunctionTally
 from ..numeric.audit.records import GREEN, CheckResult, Demand, Status, grouped
-from ..numeric.audit.reports.words import lines_of
+from ..numeric.audit.reports.causes import lines_of
 from .consoles import full_width, paragraph, print_table
 
 HELP = "free: asked without a must, or not offered; ratio: what was got over its bound, at most 1 where all is well; -v prints every slug."
