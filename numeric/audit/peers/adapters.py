@@ -59,10 +59,6 @@ def _sippy_with_feedthrough(y: Array, u: Array, order: int, block_rows: int) -> 
     return _sippy(y, u, order, block_rows, SS_D_required=True)
 
 
-def _sippy_by_default(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
-    return _sippy(y, u, order, block_rows)
-
-
 class SippyWithFeedthrough(Package):
     """What a user sets who knows of a D."""
 
@@ -80,7 +76,7 @@ class SippyWithFeedthrough(Package):
 class Sippy(SippyWithFeedthrough):
     """The package's default SS_D_required=False: D is zero, and a plant with a D is not what was promised."""
 
-    identify = staticmethod(_sippy_by_default)
+    identify = staticmethod(_sippy)
 
     def apart(self) -> dict[str, str]:
         without = promises.with_feedthrough("the default SS_D_required=False estimates no D")
@@ -146,10 +142,6 @@ def _ctrlsys(y: Array, u: Array, order: int, block_rows: int, method: str = "M",
     return A, B, C, D
 
 
-def _ctrlsys_by_moesp(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
-    return _ctrlsys(y, u, order, block_rows)
-
-
 def _ctrlsys_combined(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
     return _ctrlsys(y, u, order, block_rows, "C", "N")
 
@@ -180,7 +172,7 @@ class CtrlsysCombined(Package):
 class Ctrlsys(CtrlsysCombined):
     """A, B, C and D by MOESP."""
 
-    identify = staticmethod(_ctrlsys_by_moesp)
+    identify = staticmethod(_ctrlsys)
     structure = staticmethod(_ctrlsys_zeros)
 
 

@@ -2,14 +2,14 @@
 
 Dialect     what a language has to say: numbers, calls, comparisons, ends
 LANGUAGES   name -> its dialect
-compared    the lines that compare one thing that is due
+compared    the lines that compare one thing that is due;   side_by_side   of assignments
 """
 
 from __future__ import annotations
 
 import base64
 import zlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from textwrap import wrap
 from typing import Any
@@ -45,16 +45,30 @@ class Dialect:
 
 def compared(dialect: Dialect, due: Due) -> list[str]:
     """Return the assignments of `expected`, `bound` and what the comparison needs besides, and the comparison."""
-    sides, lines, assigned = due.sides, list[str](), dialect.assigned
+    sides, parts = due.sides, list[list[str]]()
     for name, value in sides.given.items():
         if name == "kernel_rows":
-            lines += [dialect.rows[0], *(line for row in value for line in (*assigned("row", np.array(_floats(row))), dialect.rows[1]))]
+            begin, add = dialect.rows
+            parts += [[begin], *(part for row in value for part in (dialect.assigned("row", np.array(_floats(row))), [add]))]
         else:
-            lines += assigned(name, np.array(_floats(value)) if isinstance(value, list) else value)
+            parts.append(dialect.assigned(name, np.array(_floats(value)) if isinstance(value, list) else value))
     for name, value in (("expected", _floats(sides.truth)), ("bound", _floats(sides.bounds))):
-        lines += assigned(name, np.array(value) if isinstance(value, list) else value)
+        parts.append(dialect.assigned(name, np.array(value) if isinstance(value, list) else value))
     what = due.quantity.replace('"', "'")
-    return [*lines, *dialect.compared[sides.of].replace("{what}", what).splitlines()]
+    return [*side_by_side(parts), *dialect.compared[sides.of].replace("{what}", what).strip("\n").splitlines()]
+
+
+def side_by_side(parts: Sequence[list[str]]) -> list[str]:
+    """Return the lines of assignments, the short ones on one line where they fit."""
+    lines, room = list[str](), False
+    for part in parts:
+        together = f"{lines[-1].rstrip(';')}; {part[0]}" if room else ""
+        if len(part) == 1 and 0 < len(together) <= WIDTH:
+            lines[-1] = together
+        else:
+            lines += part
+        room = len(part) == 1
+    return lines
 
 
 def _floats(value: Any) -> Any:
@@ -98,14 +112,14 @@ def _number_in_python(value: Any) -> str:
 
 
 _EQUAL = 'told("{what}", got, expected, 0.0 if list(np.ravel(got)) == list(np.ravel(expected)) else np.inf, 0.0)'
-_ENTRIES = """rounding = len(expected) * np.spacing(np.abs(expected).max())  # which comparing in floats adds
-told("{what}", got, expected, np.abs(got - expected), bound + rounding)"""
+_ENTRIES = """# to the bound comes what comparing in floats adds
+told("{what}", got, expected, np.abs(got - expected), bound + len(expected) * np.spacing(np.abs(expected).max()))"""
 _PAIRS = """
 got = nearest(got, expected)
 told("{what}", got, expected, *((np.abs(got - expected), bound) if len(got) == len(expected) else (np.inf, 0.0)))"""
 _SINE = 'told("{what}", got, expected, sine(got, expected), bound)'
 _FIELD = "got = answer['{0}'] if isinstance(answer, dict) else answer.{0}\n"
-_MODEL = "A, B, C, D = (np.atleast_2d(np.asarray(one, dtype=float)) for one in answer)\n"
+MODEL = "A, B, C, D = (np.atleast_2d(np.asarray(one, dtype=float)) for one in answer)\n"
 PYTHON = Dialect(
     mark="#",
     opening="""
@@ -116,13 +130,6 @@ import sys
 import numpy as np
 
 wrong = []
-
-
-def told(what, got, expected, off, bound):
-    wrong.append(not np.all(off <= np.asarray(bound)))
-    most = [np.max(one, initial=0.0) for one in (off, bound)]
-    print("{}: {}, off by {:.3g}, bound {:.3g}".format(what, "WRONG" if wrong[-1] else "right", *most))
-    print("  got", got, "\\n  expected", expected)
 """,
     assigned=_in_python,
     call="answer = {function}({given})",
@@ -134,6 +141,14 @@ except (ValueError, ArithmeticError) as error:
 if answer is None:
     sys.exit(0)  # right: there is nothing to answer""",
     helpers={
+        "told": """
+
+def told(what, got, expected, off, bound):
+    wrong.append(not np.all(off <= np.asarray(bound)))
+    most = [np.max(one, initial=0.0) for one in (off, bound)]
+    print("{}: {}, off by {:.3g}, bound {:.3g}".format(what, "WRONG" if wrong[-1] else "right", *most))
+    print("  got", got, "\\n  expected", expected)
+""",
         "nearest": '''
 
 def nearest(got, expected):
@@ -155,8 +170,8 @@ def sine(got, expected):
 ''',
     },
     compared={
-        "markov": _MODEL + "got = np.array([D] + [C @ np.linalg.matrix_power(A, k) @ B for k in range(len(expected) - 1)])\n" + _ENTRIES,
-        "transfer": _MODEL + "got = (D + C @ np.linalg.solve(z * np.eye(len(A)) - A, B))[None]\n" + _ENTRIES,
+        "markov": MODEL + "got = np.array([D] + [C @ np.linalg.matrix_power(A, k) @ B for k in range(len(expected) - 1)])\n" + _ENTRIES,
+        "transfer": MODEL + "got = (D + C @ np.linalg.solve(z * np.eye(len(A)) - A, B))[None]\n" + _ENTRIES,
         "polynomial": "got = np.poly(np.asarray(answer[0], dtype=float))[1:]\n" + _ENTRIES,
         "eigenvalues": "got = np.linalg.eigvals(np.asarray(answer[0], dtype=float))" + _PAIRS,
         "residual": """
@@ -396,4 +411,5 @@ println(failed ? "WRONG: arguments were changed" : "right: arguments are as they
     answers={},
     copied="deepcopy({})",
 )
+ONCE = (MODEL.strip(), _ENTRIES.splitlines()[0])  # in a script
 LANGUAGES = {"python": PYTHON, "octave": OCTAVE, "matlab": OCTAVE, "julia": JULIA}

@@ -23,7 +23,7 @@ from ..records import Check, Demand
 from ..reports.versions import kit
 from ..subjects.subprocess_adapter import ANSWERS
 from ..vectors.rationals import floats
-from .languages import LANGUAGES, Dialect, compared
+from .languages import LANGUAGES, ONCE, Dialect, compared, side_by_side
 from .questions import GROWS, question
 
 
@@ -72,8 +72,7 @@ def _body(check: Check, dialect: Dialect) -> list[str]:
     template = {None: call, "deterministic": dialect.twice, "inputs-untouched": dialect.untouched}[manner]
     for one in asked.calls[:1] if manner else asked.calls:
         names = [argument.name for argument in one.arguments]
-        for argument in one.arguments:
-            lines += dialect.assigned(argument.name, argument.value)
+        lines += side_by_side([dialect.assigned(argument.name, argument.value) for argument in one.arguments])
         answer = dialect.answers.get(check.function, "answer")
         values = {
             "function": check.function,
@@ -83,11 +82,10 @@ def _body(check: Check, dialect: Dialect) -> list[str]:
             "names": answer.strip("[]"),
         }
         lines += _filled(template, values).strip("\n").splitlines()
-        for due in one.due:
-            lines += ["", *compared(dialect, due)]
+        shown = [line for due in one.due for line in compared(dialect, due)]
+        lines += [line for place, line in enumerate(shown) if line not in ONCE or line not in shown[:place]]
         if check.kind is Demand.MUST_REFUSE:
             lines += dialect.answered.splitlines()
-        lines.append("")
     return lines
 
 

@@ -10,14 +10,6 @@ import numpy as np
 
 wrong = []
 
-
-def told(what, got, expected, off, bound):
-    off, bound = (np.append(one, 0.0) for one in np.broadcast_arrays(off, bound))
-    wrong.append(not np.all(off <= bound))
-    worst = np.argmax(off - bound)
-    print(f"{what}: {'WRONG' if wrong[-1] else 'right'}, off by {off[worst]:.3g}, bound {bound[worst]:.3g}")
-    print("  got", got, "\n  expected", expected)
-
 # -- how ctrlsys (SLICOT in C): ib01ad, ib01bd; ab08nd is called
 def _zeros_of_slicot(nu: int, rank: int, infz: Any, Af: Any, Bf: Any, inputs: int) -> dict[str, Any]:
     import scipy.linalg
@@ -59,5 +51,4 @@ if answer is None:
     sys.exit(0)  # right: there is nothing to answer
 print("WRONG: answered where a refusal is due\n  got", answer)
 wrong.append(True)
-
 sys.exit(any(wrong))

@@ -145,10 +145,8 @@ C = [
   0.4 0.6 0.2
   0.8 1.6 -1.6
 ];
-n_v = 1;
-block_rows = 4;
+n_v = 1; block_rows = 4;
 answer = fault_space(r, A, C, n_v, block_rows);
-
 expected = [
   1.0
   -1.75
@@ -166,5 +164,4 @@ ratio = max([0; off(:) ./ max(bound(:), realmin)]); wrong = any(~(off(:) <= boun
 words = {'right', 'WRONG'}; fprintf('%s: %s\n', 'sine of the largest angle, two-sided', words{wrong + 1});
 disp('  got'); disp(got); disp('  expected'); disp(expected);
 fprintf('  off by %.3g, largest ratio to the bound %.3g\n', max([0; off(:)]), ratio);
-
 exit(double(failed));

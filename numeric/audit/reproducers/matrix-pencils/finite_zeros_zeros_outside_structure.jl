@@ -53,12 +53,9 @@ G = reshape([
     -2.0
 ], 3, 1)
 answer = structure(A, F, C, G)
-
-expected = [complex(-2.5,0.0)]
-bound = [1.1e-12]
+expected = [complex(-2.5,0.0)]; bound = [1.1e-12]
 got = field(answer, :finite_zeros)
 got = nearest(got, expected)
 same = length(got) == length(expected)
 told("number of finite zeros", got, expected, same ? abs.(got - expected) : [Inf], same ? bound : [0.0])
-
 exit(failed ? 1 : 0)

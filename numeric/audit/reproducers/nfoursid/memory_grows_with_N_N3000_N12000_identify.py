@@ -11,10 +11,9 @@ wrong = []
 
 
 def told(what, got, expected, off, bound):
-    off, bound = (np.append(one, 0.0) for one in np.broadcast_arrays(off, bound))
-    wrong.append(not np.all(off <= bound))
-    worst = np.argmax(off - bound)
-    print(f"{what}: {'WRONG' if wrong[-1] else 'right'}, off by {off[worst]:.3g}, bound {bound[worst]:.3g}")
+    wrong.append(not np.all(off <= np.asarray(bound)))
+    most = [np.max(one, initial=0.0) for one in (off, bound)]
+    print("{}: {}, off by {:.3g}, bound {:.3g}".format(what, "WRONG" if wrong[-1] else "right", *most))
     print("  got", got, "\n  expected", expected)
 
 # -- how nfoursid: NFourSID is called

@@ -61,5 +61,4 @@ catch problem
   fprintf('refused: %s\nright: there is nothing to answer\n', problem.message); exit(0);
 end
 disp('WRONG: answered where a refusal is due'); failed = true;
-
 exit(double(failed));

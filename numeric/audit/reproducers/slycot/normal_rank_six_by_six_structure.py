@@ -11,10 +11,9 @@ wrong = []
 
 
 def told(what, got, expected, off, bound):
-    off, bound = (np.append(one, 0.0) for one in np.broadcast_arrays(off, bound))
-    wrong.append(not np.all(off <= bound))
-    worst = np.argmax(off - bound)
-    print(f"{what}: {'WRONG' if wrong[-1] else 'right'}, off by {off[worst]:.3g}, bound {bound[worst]:.3g}")
+    wrong.append(not np.all(off <= np.asarray(bound)))
+    most = [np.max(one, initial=0.0) for one in (off, bound)]
+    print("{}: {}, off by {:.3g}, bound {:.3g}".format(what, "WRONG" if wrong[-1] else "right", *most))
     print("  got", got, "\n  expected", expected)
 
 # -- how slycot (SLICOT): ab08nd is called
@@ -58,15 +57,10 @@ G = np.array([
     -3.5, -0.5, -4.0, -2.5, 1.5, -2.0, -3.0, -1.5, -2.5, -1.5, 2.0, 0.5, -1.5
 ]).reshape(6, 6)
 answer = structure(A, F, C, G)
-
-expected = 6
-bound = 0.0
+expected = 6; bound = 0.0
 got = answer['normal_rank'] if isinstance(answer, dict) else answer.normal_rank
 told("normal rank", got, expected, 0.0 if list(np.ravel(got)) == list(np.ravel(expected)) else np.inf, 0.0)
-
-expected = True
-bound = 0.0
+expected = True; bound = 0.0
 got = answer['left_invertible'] if isinstance(answer, dict) else answer.left_invertible
 told("left invertible", got, expected, 0.0 if list(np.ravel(got)) == list(np.ravel(expected)) else np.inf, 0.0)
-
 sys.exit(any(wrong))
