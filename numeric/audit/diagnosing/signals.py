@@ -22,12 +22,12 @@ def _array(answer: Any) -> Array:
 
 
 def _shifted(signal: Any, samples: int) -> Array:
-    signal = _array(signal)
-    moved = np.zeros_like(signal)
+    given = _array(signal)
+    moved = np.zeros_like(given)
     if samples > 0:
-        moved[samples:] = signal[:-samples]
+        moved[samples:] = given[:-samples]
     else:
-        moved[:samples] = signal[-samples:]
+        moved[:samples] = given[-samples:]
     return moved
 
 

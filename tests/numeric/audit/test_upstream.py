@@ -30,8 +30,9 @@ from faultspace.numeric.audit.adapter import FUNCTIONS
 from faultspace.numeric.audit.checks.catalogue import all_checks, chosen
 from faultspace.numeric.audit.records import Check, Demand, Refused
 from faultspace.numeric.audit.upstream.exporting import MANNERS, document, file_name, write_checks
+from faultspace.numeric.audit.upstream.languages import LANGUAGES
 from faultspace.numeric.audit.upstream.questions import GROWS, LONGEST, question
-from faultspace.numeric.audit.upstream.reproducing import LANGUAGES, script
+from faultspace.numeric.audit.upstream.reproducing import script
 from tests.end_to_end.commands import call
 from tests.thorough import every
 
