@@ -35,7 +35,7 @@ class Sharper:
         found = self.counterexample
         if found is None:
             return f"{self.text}: not refuted either"
-        return f"{self.text}: refuted by {found.case}" + ("" if found.smallest else " (outside the box)")
+        return f"{self.text}: refuted by {found.case}" + ("" if found.smallest else " (not from the box)")
 
     def to_json(self) -> dict[str, Any]:
         """Return an entry of "sharper" in the JSON answer."""

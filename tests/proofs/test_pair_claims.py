@@ -271,7 +271,7 @@ def test_a_pair_outside_the_box_is_made_smaller() -> None:
     answer = decided("implies(equal_on(2), equal)", **ONE)
     assert answer.verdict == Answered.REFUTED and not answer.counterexample.smallest
     case = answer.counterexample.case
-    assert max(case.first.n, case.second.n) == 2 and "outside the box" in answer.summary()
+    assert max(case.first.n, case.second.n) == 2 and "not from the box" in answer.summary()
     shared = decided("implies(equal_on(2), equal)", about=ONE_A_AND_C, **ONE).counterexample.case
     assert (shared.first.A, shared.first.C) == (shared.second.A, shared.second.C) and shared.one_A_and_C and shared.first.n == 2
     system = ResidualSystem.of([[3]], [[1, 2]], [[5], [1]], [[0, 9], [7, 1]])
