@@ -28,8 +28,6 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, Protocol, TypeVar
 
-import joblib
-
 from . import workers
 from .errors import InvalidData
 
@@ -107,7 +105,11 @@ def ordered(function: Callable[..., Result], tasks: Tasks, *, count: int) -> Ite
 
 def processes(jobs: int) -> int:
     """Return how many processes `jobs` stands for: -1 for one each core."""
-    return joblib.cpu_count() if jobs == -1 else jobs
+    if jobs != -1:
+        return jobs
+    from joblib import cpu_count
+
+    return int(cpu_count())
 
 
 def _called(function: Callable[..., Result], task: Task) -> Result:
@@ -215,12 +217,13 @@ def _as_long_as_they_live(
     function: Callable[..., Result], tasks: Tasks, waiting: deque[int], begun: set[int], count: int
 ) -> Iterator[tuple[int, Result]]:
     """Take numbers of tasks from `waiting` and yield results; `begun` holds those that are under way. Raises BrokenProcessPool."""
+    from joblib import delayed
 
     def feed() -> Iterator[Any]:
         while waiting:
             k = waiting.popleft()
             begun.add(k)
-            yield joblib.delayed(_numbered)(function, k, tasks[k])
+            yield delayed(_numbered)(function, k, tasks[k])
 
     # Two processes or more: joblib would do with one what is asked for in this process, which has to live on.
     with workers.unordered(max(count, 2)) as parallel:

@@ -5,7 +5,7 @@
     client     a client of the cluster, for what does without joblib
 
 The cluster is Dask's, through joblib; `distributed` is needed for it alone. Its workers must have this package installed, in the same
-version.
+version. Joblib is loaded when the first of them are opened: that takes a tenth of a second, and most commands open none.
 """
 
 from __future__ import annotations
@@ -18,8 +18,6 @@ from functools import cache, partial
 from importlib import import_module
 from typing import Any
 
-import joblib
-
 from .errors import InvalidData
 from .processes import end_with_parent
 
@@ -27,7 +25,7 @@ from .processes import end_with_parent
 PATIENCE = 20
 
 
-def pool(count: int, cluster: str | None) -> AbstractContextManager[joblib.Parallel]:
+def pool(count: int, cluster: str | None) -> AbstractContextManager[Any]:
     """Return so many processes of this machine, or the workers of the Dask scheduler at the address `cluster`, for as long as it is open.
     Results come in the order of the tasks.
 
@@ -36,13 +34,15 @@ def pool(count: int, cluster: str | None) -> AbstractContextManager[joblib.Paral
     return _processes(return_as="generator", n_jobs=count) if cluster is None else _cluster(cluster)
 
 
-def unordered(count: int) -> AbstractContextManager[joblib.Parallel]:
+def unordered(count: int) -> AbstractContextManager[Any]:
     """Return so many processes of this machine, which take tasks one by one; a result comes as soon as it is there."""
     return _processes(return_as="generator_unordered", n_jobs=count, batch_size=1)
 
 
 @contextmanager
-def _processes(**settings: Any) -> Iterator[joblib.Parallel]:
+def _processes(**settings: Any) -> Iterator[Any]:
+    import joblib
+
     # One BLAS thread a worker: the matrices are small and the cores are taken.
     with joblib.parallel_config(backend="loky", inner_max_num_threads=1, initializer=_ending_with(os.getpid())):
         yield joblib.Parallel(**settings)
@@ -55,7 +55,9 @@ def _ending_with(parent: int) -> Callable[[], None]:
 
 
 @contextmanager
-def _cluster(address: str) -> Iterator[joblib.Parallel]:
+def _cluster(address: str) -> Iterator[Any]:
+    import joblib
+
     with client(address), joblib.parallel_config(backend="dask"):
         yield joblib.Parallel(n_jobs=-1, return_as="generator")
 

@@ -36,14 +36,13 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, TypeVar
 
-import joblib
 import numpy as np
 import psutil
 
 from ...base.errors import InvalidData, shorten
 from ...base.progress import Progress, silent
 from ...base.sheets import Shown, counted
-from ...base.tasks import Died, Task, Tasks, as_they_come
+from ...base.tasks import Died, Task, Tasks, as_they_come, processes
 from ..data.validation import positive
 from .groups import Group, Plan, StudyCases, by_phase, by_zeros
 from .plots import errors_by_zeros
@@ -270,5 +269,5 @@ def done_by(
     """
     if cluster is not None and jobs is not None:
         raise InvalidData(f"jobs: got {jobs} together with a cluster, which decides for itself; leave one of them out")
-    count = joblib.cpu_count() if jobs is None else positive(jobs, "jobs")
+    count = processes(-1) if jobs is None else positive(jobs, "jobs")
     return as_they_come(function, tasks, count=min(count, -(-len(tasks) // worth)), cluster=cluster)

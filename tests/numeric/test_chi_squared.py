@@ -1,4 +1,5 @@
-"""The law of chi-squared and the taper are those of scipy, bit for bit, and the command is imported without those folders of scipy's."""
+"""The law of chi-squared and the taper are those of scipy, bit for bit, and the command is imported without those folders of scipy's
+and without joblib."""
 
 from __future__ import annotations
 
@@ -17,7 +18,7 @@ from faultspace.numeric.method.space.tapered_moments import cosine_taper
 IDENTIFIED = """
 import sys
 import faultspace.cli.identifying
-print([name for name in sys.modules if name.startswith(('scipy.stats._stats', 'scipy.signal'))])
+print([name for name in sys.modules if name.startswith(('scipy.stats._stats', 'scipy.signal', 'joblib'))])
 """
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from importlib import import_module
+from importlib.util import find_spec
 from io import BytesIO
 from itertools import pairwise
 from typing import Any
@@ -22,13 +23,19 @@ from faultspace.numeric.method.ranks.rank_gap import FaultDimension, fault_dimen
 from faultspace.numeric.method.signal.reconstruction import reconstruct_fault
 from faultspace.numeric.plant.report.result_pictures import draw_signal
 
-Figure: Any = pytest.importorskip("matplotlib.figure", reason="matplotlib is not installed").Figure
+if find_spec("matplotlib") is None:
+    pytest.skip("matplotlib is not installed", allow_module_level=True)
 Array = NDArray[np.float64]
+
+
+def figure(**options: Any) -> Any:
+    """Return a figure of Matplotlib, which is loaded when the first of them is asked for: that takes half a second."""
+    return import_module("matplotlib.figure").Figure(**options)
 
 
 @pytest.fixture
 def axes() -> Any:
-    return Figure(figsize=(8, 4.6), layout="constrained").add_subplot()
+    return figure(figsize=(8, 4.6), layout="constrained").add_subplot()
 
 
 @pytest.fixture(scope="module")
@@ -170,7 +177,7 @@ def test_under_noise_no_rank_is_shown(axes: Any) -> None:
 def test_the_detail_of_a_fault_signal_has_one_title() -> None:
     r = np.random.default_rng(1).standard_normal((600, 2))
     signal = reconstruct_fault(r, [[0.5]], [[1.0]], [[1.0], [0.0]], [[0.0], [1.0]])
-    picture = Figure()
+    picture = figure()
     draw_signal(signal, (100, 400), picture)
     for ax in picture.axes:
         assert [bool(ax.get_title(place)) for place in ("left", "center", "right")].count(True) == 1

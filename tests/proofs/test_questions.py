@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -28,16 +29,24 @@ from faultspace.proofs.verdict.workbench import Workbench
 from faultspace.proofs.worlds import READINGS
 
 ONE_STATE = ResidualSystem.of([[0]], [[1]], [[1]], [[0]])
-SAMPLE = [item for place, item in enumerate(CORPUS[RANKS].items(Workbench("quick", 1, silent))) if place % 9 == 1]
-LATER = [item for place, item in enumerate(AIMED[RANKS].items(Workbench("quick", 1, silent))) if place < 2 or place % 20 == 0]
+
+
+@cache
+def sample() -> list[Any]:
+    return [item for place, item in enumerate(CORPUS[RANKS].items(Workbench("quick", 1, silent))) if place % 9 == 1]
+
+
+@cache
+def later() -> list[Any]:
+    return [item for place, item in enumerate(AIMED[RANKS].items(Workbench("quick", 1, silent))) if place < 2 or place % 20 == 0]
 
 
 def few(bench: Any) -> Iterator[Source]:
-    return iter(SAMPLE[::4])
+    return iter(sample()[::4])
 
 
 def few_aimed(bench: Any) -> Iterator[Source]:
-    return iter(LATER[::2])
+    return iter(later()[::2])
 
 
 @pytest.fixture
@@ -52,8 +61,8 @@ def small(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture(scope="module")
 def bench() -> Workbench:
     found = Workbench("quick", 1, silent)
-    found.put_answers(CORPUS, [examine(*item) for item in SAMPLE])
-    found.put_answers(AIMED, [examine(*item) for item in LATER])
+    found.put_answers(CORPUS, [examine(*item) for item in sample()])
+    found.put_answers(AIMED, [examine(*item) for item in later()])
     return found
 
 
@@ -111,7 +120,7 @@ def test_what_was_not_asked_is_no_answer() -> None:
 
 def test_questions_are_answered_alone_as_together() -> None:
     """Each answer is the same by itself as among all, and all of them rest on as many certificates as their answers do."""
-    for item in SAMPLE[::12]:
+    for item in sample()[::12]:
         origin, system, weight = item
         together = examine(origin, system, weight)
         for question in QUESTIONS:
@@ -183,10 +192,10 @@ def test_only_what_a_reading_asks_is_certified(small: None, monkeypatch: pytest.
     monkeypatch.setattr(questions, "accept", watched)
     bench = Workbench("quick", 1, silent)
     outcome = Check("language.proposition-3--n-alone").done(bench)
-    assert outcome.verdict == "CERTIFIED" and len(kinds) == 2 * len(SAMPLE[::4])
+    assert outcome.verdict == "CERTIFIED" and len(kinds) == 2 * len(sample()[::4])
     assert set(kinds) == {"window-ranks", "left-invertible", "not-left-invertible"}
-    assert Check("language.sharp-windows--gap").done(bench).verdict == "CERTIFIED" and len(kinds) == 2 * len(SAMPLE[::4])  # made once
-    assert Check("language.window-ranks--limit").done(bench).verdict == "CERTIFIED" and len(kinds) == (2 + 1 + 2 + 1) * len(SAMPLE[::4])
+    assert Check("language.sharp-windows--gap").done(bench).verdict == "CERTIFIED" and len(kinds) == 2 * len(sample()[::4])  # made once
+    assert Check("language.window-ranks--limit").done(bench).verdict == "CERTIFIED" and len(kinds) == (2 + 1 + 2 + 1) * len(sample()[::4])
 
 
 def test_an_interrupted_making_leaves_nothing_behind(small: None, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -248,7 +257,7 @@ def test_kinds_of_the_same_items_are_made_together() -> None:
 
 def test_the_first_look_at_a_trajectory_is_what_its_certificates_state() -> None:
     differ = set()
-    for _, system, _ in SAMPLE[:12]:
+    for _, system, _ in sample()[:12]:
         for s in (1, 2):
             for x0, v in trajectories.signals(system, s, 2) if system.n and system.m else ():
                 gap = trajectories.examined(system, x0, v, s).gap
