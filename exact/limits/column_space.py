@@ -1,7 +1,7 @@
 """This is what PI-MOESP and PO-MOESP converge to: the population limit of the projected outputs, and what its column space says of A, C.
 
     past_input_limit             Z = Up: past inputs as instruments, PI-MOESP [V93]
-    past_input_and_output_limit  Z = [Up; Yp]: PO-MOESP, as in every subspace tool that we measured
+    past_input_and_output_limit  Z = [Up; Yp]: PO-MOESP, as in the packaged subspace tools that we measured
     Limit                        L, its rank beside that of O_s and of [O_s L], the projection X, the model (A, C) that its columns carry
     StatePart                    A, C of a shift-invariant column space, up to similarity
 

@@ -76,7 +76,7 @@ class ZeroAssignment(Shown):
 
 @dataclass(frozen=True, repr=False)
 class Recovery(Shown):
-    """A pair from whose outputs r(0..delay) `left_inverse` (m x p(delay + 1)) recovers v(0), whatever the initial state is."""
+    """A pair of as many faults as the normal rank: `left_inverse` takes r(0..delay), from any initial state, to its v(0)."""
 
     assignment: ZeroAssignment
     delay: int
@@ -164,7 +164,8 @@ def recoverable_pair(pencil: Exceptional | System) -> Recovery:
     Returns
     -------
     Recovery
-        `delay`, a number of samples, and `left_inverse`, m x p(delay + 1), which takes r(0), ..., r(delay) to v(0).
+        `delay`, a number of samples, and `left_inverse`, which takes r(0), ..., r(delay) to v(0): as many rows as the normal rank,
+        p(delay + 1) columns.
 
     Raises
     ------

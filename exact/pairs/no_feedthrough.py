@@ -15,7 +15,7 @@ with N the unobservable subspace of (A, C), o = dim N. The second holds with the
 zero of its own is left to hide v. Where a condition fails, another good F' exists over every field: with c in U outside im F (+ N),
 exchange the first column f of F for c or for f + c; D is linear in that column, so that not both give 0. The fault v' that goes with an
 F' outside im F + N is v filtered, not v in another basis. For one given F: v is determined from the known initial state always, from an
-unknown one iff all finite zeros are unobservable modes. Source: [G25], [M73] and [TSH01] for V* and S*, [HP98] for recovery.
+unknown one iff there are as many finite zeros as unobservable modes. Source: [G25], [M73] and [TSH01] for V* and S*, [HP98] for recovery.
 """
 
 from __future__ import annotations

@@ -30,8 +30,8 @@ class FaultSpace(Shown):
 
     `basis` is n_z x (n + p) in reduced row echelon form, with rows [f' g'], so that equal spaces have equal bases; `F` (n x n_z) and `G` (p
     x n_z) are the columns. `window` is a number of samples, None for the limit; `exact_from`, which is lag + 1, or 1 where there is no
-    kernel row, is the least window at which the limit is reached, and `warning` says so where the window is shorter. Source: [G25] problem
-    (11), Theorem 3. Raises nothing by itself; `fault_space` makes it.
+    kernel row, is the least window of one sample or more at which the limit is reached, and `warning` says so where the window is shorter.
+    Source: [G25] problem (11), Theorem 3. Raises nothing by itself; `fault_space` makes it.
 
     >>> from faultspace.exact import ResidualSystem, fault_space, kernel_representation
     >>> kernel = kernel_representation(ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0], [0, 0]], [[0], [1]]))
@@ -63,7 +63,7 @@ class FaultSpace(Shown):
         lag, samples = self.exact_from - 1, f"{counted(self.window or 0, 'sample')} {'is' if self.window == 1 else 'are'}"
         return (
             f"window: {samples} fewer than lag + 1 = {lag + 1} (the lag is {lag}), so that the {self.dimension} columns "
-            f"found include some that are no fault columns of an equivalent model; ask for {lag + 1} samples or for the limit"
+            f"found may include some that are no fault columns of an equivalent model; ask for {lag + 1} samples or for the limit"
         )
 
     @property

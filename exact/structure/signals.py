@@ -140,8 +140,8 @@ def persistency(signal: Matrix) -> int:
 def data_fault_space(residuals: Matrix, A: Matrix, C: Matrix, s: int) -> Matrix:
     """Return the fault space as data tell it: problem (11) with the left null space of their Hankel matrix for kernel rows.
 
-    Where [X; V_s] has full row rank the rows are those of `fault_space` at window s; a fault that excites less leaves more null rows, and
-    then a smaller space. Source: [G25] problem (11) and section IV, [WRMM05] for excitation.
+    Where [X; V_s] has full row rank the rows are those of `fault_space` at window s; a fault that excites less can leave more null
+    rows, and a smaller space. Source: [G25] problem (11) and section IV, [WRMM05] for excitation.
 
     Parameters
     ----------

@@ -13,6 +13,7 @@ import pytest
 import sympy
 
 import faultspace as fs
+from faultspace import exact
 from faultspace.exact.system.systems import read_system
 from faultspace.proofs.brought.claim_files import read_claims
 from faultspace.proofs.rocq import terms
@@ -132,6 +133,12 @@ SYSTEMS: list[tuple[str, str, dict[str, Any], dict[str, Any]]] = [
             "G": [[0, 0]] * 3,
         },
         {"invariant_zero_polynomial": ["-2", "-1", "1"], "left_invertible": True},
+    ),
+    (
+        "iff all finite zeros are unobservable modes",  # 0 is one such mode, and a zero twice
+        "exact/pairs/no_feedthrough.py",
+        {"A": [[0, 0, 0], [0, 0, 0], [0, 1, 0]], "F": [[0], [0], [1]], "C": [[0, 0, 1]], "G": [[0]]},
+        {"invariant_zero_polynomial": ["0", "0", "1"], "left_invertible": True, "delay_unknown_state": None},
     ),
 ]
 
@@ -333,7 +340,8 @@ def test_a_claim_that_is_proved_is_not_refuted_either(tmp_path: Path, capsys: py
 def test_tools_and_limits_are_told_as_they_are() -> None:
     methods = (ROOT / "benchmarks/identification_methods.py").read_text("utf-8")
     assert re.search(r'Method\("fault-id", .*"past inputs"', methods), "the author's program was measured, and has no past outputs"
-    assert not [file for file in (README, SENTENCES, CONSISTENCY, "proofs/verdict/ledger.toml") if "every subspace tool" in text(file)]
+    files = ("proofs/verdict/ledger.toml", "exact/limits/column_space.py", "numeric/method/model/past_outputs.py")
+    assert not [file for file in (README, SENTENCES, CONSISTENCY, *files) if "every subspace tool" in text(file)]
     experiment = json.loads((ROOT / "faultspace/examples/independent-fault.json").read_text("utf-8"))
     assert "L" not in fs.limit(experiment).to_json() and "`faultspace limit` prints it" not in text(CONSISTENCY)
 
@@ -365,3 +373,26 @@ def test_fields_of_claims_are_prime() -> None:
     with pytest.raises(fs.errors.InvalidInput, match="prime q up to 97"):
         fs.claim("lag <= n", fields=["GF(4)"])
     assert "may name finite fields" not in text("docs/your-claims.md")
+
+
+def test_what_the_exact_branch_says_of_its_answers() -> None:
+    """Shapes are those of the pair; all columns are the limit on no sample, too; names and spaces can stay the same."""
+    one, many = exact.ResidualSystem.of([[0]], [[1]], [[1]], [[0]]), exact.ResidualSystem.of([[0]], [[1, 1]], [[1]], [[0, 0]])
+    recovery = exact.recoverable_pair(exact.exceptional(many))
+    assert recovery.left_inverse.nrows == 1 < many.m and "m x p(delay + 1)" not in text("exact/pairs/assignment.py")
+    none, limit = exact.fault_space(one, 0), exact.fault_space(one)
+    assert none.basis == limit.basis and none.window == 0 < limit.exact_from and "may include" in str(none.warning)
+    assert "is the least window at which the limit is reached" not in text("exact/structure/fault_columns.py")
+    other = exact.ResidualSystem.of([[0]], [[2]], [["1/2"]], [[0]])  # in another basis of the state
+    assert exact.feedback_class(one) == exact.feedback_class(other)
+    assert "a change of basis of the state changes the class" not in text("exact/pairs/canonical_form.py")
+    direct = exact.ResidualSystem.of([[0]], [[0]], [[0]], [[1]])
+    data = exact.simulate(direct, [[0]], [[1], [0]])  # [X; V_1] has rank 1 of 2
+    assert exact.data_fault_space(data.residuals, direct.A, direct.C, s=1) == exact.fault_space(direct, 1).basis
+    assert "excites less leaves more null rows" not in text("exact/structure/signals.py")
+
+
+def test_what_exists_for_some_system_is_not_said_of_each() -> None:
+    system = exact.ResidualSystem.of([[0]], [[1]], [[1]], [[0]])
+    assert "reason" in exact.bad_pair(exact.exceptional(system)).to_json(), "no P of full column rank is bad"
+    assert "they say that something exists for each system" not in text("docs/your-claims.md")

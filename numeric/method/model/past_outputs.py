@@ -1,4 +1,4 @@
-"""PO-MOESP, with past outputs beside past inputs as instruments: kept for comparison, since every subspace tool that we measured uses it.
+"""PO-MOESP, with past outputs beside past inputs as instruments: kept for comparison with packaged subspace tools.
 
 The factor of [Uf; Up; Yp; Yf] by sequential QR; singular values of Yf along [Up; Yp] with Uf projected out, not scaled, as SLICOT's
 IB01AD prints them. Under a coloured additive disturbance or fault it can stay biased at the true order, where past inputs alone do
