@@ -25,6 +25,7 @@ PAPERS, LITERATURE = "faultspace/examples/papers.toml", "faultspace/examples/lit
 CLAIMS, CHOICES = "faultspace/examples/claims.toml", "faultspace/examples/choices.toml"
 GLOSSARY, CONCEPTS, CONSISTENCY = "docs/glossary.md", "docs/concepts.md", "docs/consistency.md"
 README, SENTENCES, SPEED = "README.md", "faultspace/review/sentences.toml", "docs/speed.md"
+PAST_OUTPUTS = "numeric/method/model/past_outputs.py"
 
 UNMOVED: dict[str, Any] = {"A": [[0]], "F": [[0]], "C": [[1]], "G": [[0]]}  # a fault that nothing feels
 
@@ -175,6 +176,15 @@ EXPERIMENTS: list[tuple[str, tuple[str, ...], dict[str, Any], dict[str, Any]]] =
         {"equals_observability_range": True, "A_characteristic_polynomial": ["-1/2", "1"]},
     ),
     (
+        "The model is biased where a fault or a disturbance is coloured",  # v(k) = e(k) + e(k-1) / 2, which is seen a sample later
+        (PAST_OUTPUTS,),
+        {
+            **{"A": [["1/2"]], "B": [["1"]], "C": [["1"]], "D": [["0"]], "F": [["1"]], "G": [["0"]]},
+            **{"s": 2, "past": 2, "u_filter": [[["1", "0"]]], "v_filter": [[["0", "1"]], [["0", "1/2"]]]},
+        },
+        {"equals_observability_range": True, "A_characteristic_polynomial": ["-1/2", "1"]},
+    ),
+    (
         "One sign only: with white u the limit lies in the range",
         (CONSISTENCY,),
         {
@@ -200,7 +210,7 @@ def test_what_an_experiment_refutes_is_not_said(
     words: str, files: tuple[str, ...], experiment: dict[str, Any], facts: dict[str, Any]
 ) -> None:
     found = fs.limit(experiment).to_json()
-    outputs = found["past_outputs"] if files[0] in (README, SPEED) else found
+    outputs = found["past_outputs"] if files[0] in (README, SPEED, PAST_OUTPUTS) else found
     assert {key: outputs[key] for key in facts} == facts
     assert not [file for file in files if words in text(file)]
 
@@ -340,7 +350,7 @@ def test_a_claim_that_is_proved_is_not_refuted_either(tmp_path: Path, capsys: py
 def test_tools_and_limits_are_told_as_they_are() -> None:
     methods = (ROOT / "benchmarks/identification_methods.py").read_text("utf-8")
     assert re.search(r'Method\("fault-id", .*"past inputs"', methods), "the author's program was measured, and has no past outputs"
-    files = ("proofs/verdict/ledger.toml", "exact/limits/column_space.py", "numeric/method/model/past_outputs.py")
+    files = ("proofs/verdict/ledger.toml", "exact/limits/column_space.py", PAST_OUTPUTS)
     assert not [file for file in (README, SENTENCES, CONSISTENCY, *files) if "every subspace tool" in text(file)]
     experiment = json.loads((ROOT / "faultspace/examples/independent-fault.json").read_text("utf-8"))
     assert "L" not in fs.limit(experiment).to_json() and "`faultspace limit` prints it" not in text(CONSISTENCY)

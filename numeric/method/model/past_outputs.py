@@ -24,7 +24,7 @@ from .sequential_qr import SequentialQR
 def po_moesp(y: ArrayLike, u: ArrayLike, *, order: int | None = None, block_rows: int, past_rows: int | None = None) -> MoespModel:
     """Identify the model of one experiment by past inputs and outputs, PO-MOESP [VV07].
 
-    The model is biased where a fault or a disturbance is coloured, whatever the number of samples (chapter 9 of the source has the method).
+    The model can be biased where a fault or a disturbance is coloured, whatever the number of samples (chapter 9 has the method).
 
     Parameters
     ----------
