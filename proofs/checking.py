@@ -111,16 +111,34 @@ class CheckedFile(Shown):
 def check(certificate: Mapping[str, Any] | str | os.PathLike[str], systems: Any = (), *, rocq: bool = False) -> Checked:
     """Decide what a certificate proves, by the checker, which trusts nothing that the certificate says.
 
-    `certificate` is the JSON-ready dict that `certify` returns, or the name of a certificate's file. Each of `systems` must be one that the
-    statement is about: systems, experiments, JSON-ready dicts or names of their files, one or a list of them. With `rocq` the kernel of
-    Rocq recomputes what the checker has verified, which takes seconds, and minutes when the theory is first compiled. The result has
-    `statement`, in words, `assumes`, the list of what was not verified, and `rocq`. `faultspace check` does the same with files. The format
-    of certificates is in proofs/trust/FORMAT.md; the checker there is one file that can be copied alone.
+    `faultspace check` does the same with files. The format of certificates is in proofs/trust/FORMAT.md; the checker there is one file that
+    can be copied alone.
 
-    Raises `faultspace.proofs.Rejected` where the witness does not prove the statement, `faultspace.proofs.Malformed` for a dict that is no
-    certificate, an InvalidInput that is a Malformed too, and names the file, for a file that holds none or cannot be read, and InvalidInput
-    for what is neither, and where Rocq is asked and is not there.
+    Parameters
+    ----------
+    certificate : dict, str or path
+        What `certify` returns, or the name of a certificate's file.
+    systems : System, Experiment, dict, str, path, or a list of these
+        Each must be one that the statement is about; dicts are JSON-ready.
+    rocq : bool
+        Whether the kernel of Rocq recomputes what the checker has verified: seconds, and minutes when the theory is first compiled.
 
+    Returns
+    -------
+    Checked
+        The `statement` in words, `assumes`, the list of what was not verified, and `rocq`.
+
+    Raises
+    ------
+    Rejected
+        Where the witness does not prove the statement.
+    Malformed
+        For a dict that is no certificate; for a file that holds none or cannot be read it is an InvalidInput, too, and names the file.
+    InvalidInput
+        For what is neither, and where Rocq is asked and is not there.
+
+    Examples
+    --------
     >>> import faultspace as fs
     >>> certificate = fs.certify(fs.System(A=[["1/2"]], F=[[1]], C=[[1]], G=[[0]]), "schur-stable")
     >>> fs.check(certificate)
@@ -142,12 +160,26 @@ def check(certificate: Mapping[str, Any] | str | os.PathLike[str], systems: Any 
 def check_file(path: str | os.PathLike[str], systems: Any = ()) -> CheckedFile:
     """The checker's answer about a certificate's file, whatever it is: what cannot be read is "malformed", and nothing of it is raised.
 
-    The `answer` of the result is a dict. `path` names the file, and each of `systems` is as for `check`: systems, experiments, JSON-ready
-    dicts or names of their files; one may stand without a list.
+    Parameters
+    ----------
+    path : str or path
+    systems : System, Experiment, dict, str, path, or a list of these
+        As for `check`.
 
-    Raises InvalidInput for what is none of these, `faultspace.proofs.Malformed` or `faultspace.proofs.Rejected` for one of `systems` that
-    is none.
+    Returns
+    -------
+    CheckedFile
+        Its `answer` is a dict.
 
+    Raises
+    ------
+    InvalidInput
+        Where one of `systems` is none of these.
+    Malformed, Rejected
+        Where one of `systems` is no system.
+
+    Examples
+    --------
     >>> import json, tempfile, faultspace as fs
     >>> from faultspace.proofs import check_file
     >>> certificate = fs.certify(fs.System(A=[["1/2"]], F=[[1]], C=[[1]], G=[[0]]), "schur-stable")

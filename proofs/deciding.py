@@ -13,7 +13,6 @@ import time
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from threading import local
@@ -21,6 +20,7 @@ from typing import Any
 
 from ..base.progress import silent
 from ..base.tasks import Once, ordered, processes
+from .claims import check_of
 from .evidence.material import Carried, Folder, Material, Shelf, Wanted
 from .evidence.once_a_run import in_run
 from .hypotheses import ablations
@@ -34,7 +34,7 @@ from .verdict.workbench import Workbench
 
 @dataclass(frozen=True)
 class Check:
-    """The function of claims/ with this name, "file.function", or the text in the language of claims, "language.NAME"; to an Outcome."""
+    """The function of claims/ with this name, "claim.reading", or the text in the language of claims, "language.NAME"; to an Outcome."""
 
     name: str
 
@@ -47,7 +47,7 @@ class Check:
 
                 outcome = decide_reading(bench, name)
             else:
-                outcome = getattr(import_module(f".claims.{file}", __package__), name)(bench)
+                outcome = check_of(self.name)(bench)
         except (Malformed, Rejected) as error:
             outcome = Outcome(Verdict.ERROR, f"the checker refused a certificate: {error}")
         except Exception as error:  # whatever it is, this check did not finish, and the others go on
@@ -72,8 +72,7 @@ class Without:
         try:
             return ablate(bench, ablation, expected_without()[ablation.name])
         except Exception as error:  # as for a check: it did not finish, and the others go on
-            words = f"{type(error).__name__}: {error}"
-            return (Row(ablation.name, ablation.claim, ablation.conclusion, (), Verdict.ERROR, words, None, (), frozenset()),)
+            return (ablation.row((), Outcome(Verdict.ERROR, f"{type(error).__name__}: {error}")),)
 
     def __str__(self) -> str:
         return f"{self.name} without its hypotheses"

@@ -15,7 +15,7 @@ from dataclasses import asdict
 from functools import cache
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from ..base.kept_lines import KeptLines, keeping_lines
 from .trust.checker import Malformed, Rejected
@@ -24,6 +24,7 @@ from .verdict.verdicts import Outcome, Row, Verdict, versions
 
 FORMAT = "faultspace-decided/1"
 ROOMS = ("base", "exact", "proofs")
+Found = TypeVar("Found", bound=Outcome)
 
 
 class KeptAnswers:
@@ -117,28 +118,21 @@ def _good(line: Mapping[str, Any]) -> bool:
     return isinstance(line.get("record"), dict) or isinstance(line.get("corpus"), str)
 
 
-def _several(found: Outcome | tuple[Row, ...]) -> Sequence[Outcome | Row]:
+def _several(found: Outcome | tuple[Row, ...]) -> Sequence[Outcome]:
     """Return what a task came to as a sequence."""
     return found if isinstance(found, tuple) else (found,)
 
 
 def _read(line: Mapping[str, Any]) -> Outcome | tuple[Row, ...]:
-    return _outcome(line["outcome"]) if "outcome" in line else tuple(_row(row) for row in line["rows"])
+    return _made(Outcome, line["outcome"]) if "outcome" in line else tuple(_made(Row, row) for row in line["rows"])
 
 
-def _entries(one: Outcome | Row) -> dict[str, Any]:
+def _entries(one: Outcome) -> dict[str, Any]:
     return {**asdict(one), "decided": sorted(one.decided)}
 
 
-def _decided(entries: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the entries with the certificates as a set; a line of an earlier version, which no run goes on with, has their number."""
-    return {name: value for name, value in entries.items() if name != "accepted"} | {"decided": frozenset(entries.get("decided", ()))}
-
-
-def _outcome(entries: Mapping[str, Any]) -> Outcome:
-    return Outcome(**{**_decided(entries), "verdict": Verdict(entries["verdict"]), "certificates": tuple(entries["certificates"])})
-
-
-def _row(entries: Mapping[str, Any]) -> Row:
-    several = {name: tuple(entries[name]) for name in ("dropped", "certificates", "theorems", "attacks")}
-    return Row(**{**_decided(entries), **several, "verdict": Verdict(entries["verdict"])})
+def _made(kind: type[Found], entries: Mapping[str, Any]) -> Found:
+    """Return the record of these entries; a line of an earlier version, which no run goes on with, has the number of its certificates."""
+    several = {name: tuple(entries[name]) for name in ("dropped", "certificates", "theorems", "attacks") if name in entries}
+    given = {name: value for name, value in entries.items() if name != "accepted"} | several
+    return kind(**given | {"verdict": Verdict(entries["verdict"]), "decided": frozenset(entries.get("decided", ()))})

@@ -45,17 +45,39 @@ def verify(
 ) -> Report:
     """Decide every claim of the ledger, or those with the ids `claims`, now: each reading gets a verdict and the evidence it rests on.
 
-    `claims` is a list of ids or one id, None for all; `effort` is "quick" or "full", `jobs` a number of processes (-1: one for each core),
-    `scheduler` the address of a Dask scheduler, whose workers do the work then (they need this package in the same version), `resume` is a
-    file in which each answer is kept as it comes, so that the same call goes on where it was stopped (its certificates are checked once
-    more), and `on_progress(stage, done, total)` hears how far the run is, also from the thread that waits for Rocq. The Report has
-    `claims`, `hypotheses`, `as_expected` (whether every verdict is the one that the ledger expects), `certificates()`, `summary()` and
-    `plot()`. Most claims take tens of seconds, because the systems and certificates that their readings rest on are made anew; the one of
-    the example below needs less than a second. The claims are those of [G25].
+    Most claims take tens of seconds, because the systems and certificates that their readings rest on are made anew; the one of the example
+    below needs less than a second. The claims are those of [G25].
 
-    Raises InvalidInput for an unknown claim or effort, an empty list, a number of processes that is neither -1 nor positive, and one
-    beside a scheduler, and for a file that is not one of these; InvalidData for a cluster that cannot be used or is lost.
+    Parameters
+    ----------
+    claims : list of str, or str, optional
+        Ids of claims; all claims where there is none.
+    effort : {"quick", "full"}
+    jobs : int
+        A number of processes; -1: one for each core.
+    scheduler : str, optional
+        The address of a Dask scheduler, whose workers do the work then; they need this package in the same version.
+    resume : str or path, optional
+        A file in which each answer is kept as it comes, so that the same call goes on where it was stopped; certificates are checked again.
+    on_progress : callable, optional
+        Called as (stage, done, total), also from the thread that waits for Rocq.
 
+    Returns
+    -------
+    Report
+        It has `claims`, `hypotheses`, `as_expected` (whether every verdict is the one that the ledger expects), `certificates()`,
+        `summary()` and `plot()`.
+
+    Raises
+    ------
+    InvalidInput
+        For an unknown claim or effort, an empty list, a number of processes that is neither -1 nor positive, and one beside a scheduler,
+        and for a file that is not one of these.
+    InvalidData
+        For a cluster that cannot be used or is lost.
+
+    Examples
+    --------
     >>> import faultspace as fs
     >>> report = fs.verify(["example-v"], jobs=1)
     >>> print(report.title)

@@ -35,7 +35,7 @@ from fractions import Fraction
 from typing import Any
 
 from ...base.errors import InvalidInput, shorten
-from ...base.sheets import Shown, counted
+from ...base.sheets import Shown, counted, told
 from ..algebra.fields import QQ
 from ..algebra.matrices import Matrix, beside, rank, stacked
 from ..algebra.notation import named_matrix
@@ -84,14 +84,7 @@ class ARXLimit(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict of exact numbers."""
-        return {
-            "lags": self.lags,
-            "open_loop": self.open_loop,
-            "outputs": [matrix.to_json() for matrix in self.outputs],
-            "inputs": [matrix.to_json() for matrix in self.inputs],
-            "innovation": self.innovation.to_json(),
-            "misfit": None if self.misfit is None else str(self.misfit),
-        }
+        return told(self, "lags", "open_loop", "outputs", "inputs", "innovation", "misfit")
 
     @property
     def lags(self) -> int:

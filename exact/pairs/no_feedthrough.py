@@ -25,7 +25,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...base.errors import InvalidInput
-from ...base.sheets import Shown, counted
+from ...base.sheets import Shown, counted, told
 from ..algebra.matrices import Matrix, beside, rank, stacked
 from ..algebra.notation import named_matrix
 from ..structure.inversion import delay_known_state, delay_unknown_state, largest_output_nulling
@@ -96,19 +96,8 @@ class ZeroFeedthrough(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return what a certificate needs: members, condition, and the alternative where there is one."""
-        return {
-            "members": self.members.to_json(),
-            "zeta": self.members.ncols,
-            "ambiguity": self.ambiguity,
-            "rank_CF": self.rank_CF,
-            "finite_zeros": self.finite_zeros,
-            "pins_F": self.pins_F,
-            "pins_v": self.pins_v,
-            "delay_known_state": self.delay_known_state,
-            "delay_unknown_state": self.delay_unknown_state,
-            "own": self.own.to_json(),
-            "alternative": None if self.alternative is None else self.alternative.to_json(),
-        }
+        counts = told(self, "ambiguity", "rank_CF", "finite_zeros", "pins_F", "pins_v", "delay_known_state", "delay_unknown_state")
+        return {"members": self.members.to_json(), "zeta": self.members.ncols, **counts, **told(self, "own", "alternative")}
 
     @property
     def title(self) -> str:

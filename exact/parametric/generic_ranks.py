@@ -20,7 +20,7 @@ from typing import Any
 from ...base.sheets import Shown
 from ..algebra.validation import natural
 from .case_tree import Polynomial
-from .identities import FlintPolynomial, FlintWindow, SecondRoute
+from .identities import FlintPolynomial, FlintWindow, SecondRoute, maximal_minors, read_back
 from .stratification import Indeterminates, indeterminates
 
 
@@ -151,29 +151,12 @@ def _generic_window(entries: Indeterminates, samples: int) -> GenericWindow:
         minors = [
             minor
             for chosen in combinations(range(width), rank)
-            for minor in _maximal_minors(route, [[line[j] for j in chosen] for line in tall], rank)
+            for minor in maximal_minors(route, [[line[j] for j in chosen] for line in tall], rank)
         ]
         if minors:
             factors, remaining = _reduced(route, entries, minors)
             return GenericWindow(samples, rows, columns, rank, factors, remaining, len(minors))
     raise ArithmeticError("the empty minor is 1")
-
-
-def _maximal_minors(route: SecondRoute, lines: list[list[FlintPolynomial]], width: int) -> list[FlintPolynomial]:
-    """Return the nonzero minors of size `width` of a matrix with so many columns, column by column, smaller minors shared."""
-    minors: dict[tuple[int, ...], FlintPolynomial] = {(): route.context.constant(1)}
-    for column in range(width):
-        larger: dict[tuple[int, ...], FlintPolynomial] = {}
-        for chosen, minor in minors.items():
-            for i, line in enumerate(lines):
-                if i in chosen or not line[column]:
-                    continue
-                # Expansion along the last column: the sign is that of the rows below i.
-                sign = (-1) ** sum(c > i for c in chosen)
-                key = tuple(sorted((*chosen, i)))
-                larger[key] = larger.get(key, route.context.constant(0)) + sign * line[column] * minor
-        minors = {key: minor for key, minor in larger.items() if minor}
-    return list(minors.values())
 
 
 def _reduced(
@@ -191,20 +174,15 @@ def _reduced(
         square_free[str(radical)] = radical
     kept: list[Polynomial] = []
     for f in sorted(square_free.values(), key=_size):
-        image = _back(entries, f)
+        image = read_back(entries.ring, f)
         # Where the ones before it vanish, f vanishes if and only if its remainder does.
         rest = image.rem(kept) if kept else image
         if rest:
             rest = rest.primitive()[1]
             kept.append(-rest if rest.LC < 0 else rest)
     factors = sorted((factor for factor, _ in common.factor()[1]), key=_size)
-    return tuple(_back(entries, f) for f in factors), tuple(kept)
+    return tuple(read_back(entries.ring, f) for f in factors), tuple(kept)
 
 
 def _size(f: FlintPolynomial) -> tuple[int, int, str]:
     return f.total_degree(), len(f), str(f)
-
-
-def _back(entries: Indeterminates, f: FlintPolynomial) -> Polynomial:
-    ring = entries.ring
-    return ring.from_dict({tuple(map(int, e)): ring.domain(int(c)) for e, c in f.to_dict().items()})

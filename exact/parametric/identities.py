@@ -13,7 +13,7 @@ an earlier unit. What makes rows independent is that the reduced rows of a windo
     IdentityFailure     raised by the first thing that is not so
     SecondRoute         the polynomials of one ring in FLINT, and the comparisons
     verify_cases        branches cover all values once, and their units are units
-    FlintWindow, flint_determinant
+    FlintWindow, flint_determinant, maximal_minors, read_back
 """
 
 from __future__ import annotations
@@ -280,20 +280,30 @@ def _shifted(window: FlintWindow, line: list[FlintPolynomial], n: int, m: int) -
 
 
 def flint_determinant(route: SecondRoute, matrix: Sequence[Sequence[FlintPolynomial]]) -> FlintPolynomial:
-    """Return the determinant of a small matrix by expansion along its rows, minors of the lower rows shared."""
-    size = len(matrix)
+    """Return the determinant of a small matrix, as its one maximal minor."""
+    return next(iter(maximal_minors(route, matrix, len(matrix))), route.context.constant(0))
+
+
+def maximal_minors(route: SecondRoute, lines: Sequence[Sequence[FlintPolynomial]], width: int) -> list[FlintPolynomial]:
+    """Return the nonzero minors of size `width` of a matrix with so many columns, column by column, smaller minors shared."""
     minors: dict[tuple[int, ...], FlintPolynomial] = {(): route.context.constant(1)}
-    for row in reversed(matrix):
+    for column in range(width):
         larger: dict[tuple[int, ...], FlintPolynomial] = {}
-        for columns, minor in minors.items():
-            for j in range(size):
-                if j in columns or not row[j]:
+        for chosen, minor in minors.items():
+            for i, line in enumerate(lines):
+                if i in chosen or not line[column]:
                     continue
-                place = sum(c < j for c in columns)
-                key = tuple(sorted((*columns, j)))
-                larger[key] = larger.get(key, route.context.constant(0)) + (-1) ** place * row[j] * minor
-        minors = larger
-    return minors.get(tuple(range(size)), route.context.constant(0))
+                # Expansion along the last column: the sign is that of the rows below i.
+                sign = (-1) ** sum(c > i for c in chosen)
+                key = tuple(sorted((*chosen, i)))
+                larger[key] = larger.get(key, route.context.constant(0)) + sign * line[column] * minor
+        minors = {key: minor for key, minor in larger.items() if minor}
+    return list(minors.values())
+
+
+def read_back(ring: Ring, f: FlintPolynomial) -> Polynomial:
+    """Return sympy's polynomial of FLINT's."""
+    return ring.from_dict({tuple(map(int, exponents)): ring.domain(int(c)) for exponents, c in f.to_dict().items()})
 
 
 def _indices(product: UnitProduct) -> tuple[int, ...]:

@@ -24,7 +24,7 @@ from typing import Any
 
 from ..algebra.validation import natural
 from .case_tree import Polynomial, Ring
-from .identities import SecondRoute
+from .identities import SecondRoute, read_back
 
 LARGEST = (2, 2, 2, 2, 2)
 
@@ -84,7 +84,7 @@ def lead_identities(n: int, nu: int, m: int, p: int, J: int) -> LeadIdentities:
     columns = [[x for block in reversed(reached) for x in block[i]] for i in range(n)]
     _compare(route, _covariance(response, rows), _product(observability, columns, rows * nu, zero), "Cov(Yf, Up)")
 
-    B, D = (tuple(tuple(_read_back(ring, f) for f in row) for row in table) for table in (seen_B, seen_D))
+    B, D = (tuple(tuple(read_back(ring, f) for f in row) for row in table) for table in (seen_B, seen_D))
     return LeadIdentities((n, nu, m, p, J), ring, B, D, J + 2 * rows, rows, route.expanded, route.terms)
 
 
@@ -150,10 +150,3 @@ def _sum(tables: Sequence[Table]) -> list[list[Any]]:
     for table in tables[1:]:
         result = [[x + y for x, y in zip(left, right, strict=True)] for left, right in zip(result, table, strict=True)]
     return result
-
-
-def _read_back(ring: Ring, f: Any) -> Polynomial:
-    """Return sympy's polynomial of FLINT's."""
-    from sympy import ZZ
-
-    return ring.from_dict({tuple(map(int, exponents)): ZZ(int(c)) for exponents, c in f.to_dict().items()})

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...base.errors import InvalidInput
-from ...base.sheets import Shown, counted
+from ...base.sheets import Shown, counted, told
 from ..algebra.matrices import Matrix, right_null_space, row_echelon, stacked
 from ..algebra.notation import named_matrix
 from ..algebra.validation import natural
@@ -92,12 +92,7 @@ class FaultSpace(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """The rows of "fault_space" are [f' g']."""
-        return {
-            "window": self.window,
-            "exact_from": self.exact_from,
-            "dimension": self.dimension,
-            "fault_space": self.basis.to_json(),
-        }
+        return told(self, "window", "exact_from", "dimension") | {"fault_space": self.basis.to_json()}
 
 
 def from_kernel_rows(rows: Iterable[Matrix], A: Matrix, C: Matrix) -> Matrix:

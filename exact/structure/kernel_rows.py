@@ -26,7 +26,7 @@ from typing import Any
 
 from flint import fmpz, fmpz_mat
 
-from ...base.sheets import Shown
+from ...base.sheets import Shown, told
 from ..algebra.fields import PrimeField
 from ..algebra.matrices import Matrix, beside, stacked
 from ..algebra.notation import polynomial, several
@@ -122,12 +122,8 @@ class KernelRepresentation(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Each row is the list [c_0, ..., c_mu] of its coefficients."""
-        return {
-            "normal_rank": self.normal_rank,
-            "lag": self.lag,
-            "left_minimal_indices": list(self.left_minimal_indices),
-            "rows": [row.coefficients.to_json() for row in self.rows],
-        }
+        rows = [row.coefficients.to_json() for row in self.rows]
+        return told(self, "normal_rank", "lag", "left_minimal_indices") | {"rows": rows}
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...base.progress import Progress, silent
-from ...base.sheets import Shown
+from ...base.sheets import Shown, told
 from ..algebra.matrices import Matrix
 from ..algebra.notation import named_matrix, polynomial, several
 from ..algebra.polynomials import Poly, written
@@ -104,21 +104,13 @@ class Structure(Shown):
         windows = range(1, system.n + 4)
         return {
             "field": system.field.to_json(),
-            "n": system.n,
-            "p": system.p,
-            "m": system.m,
-            "normal_rank": kernel.normal_rank,
-            "left_minimal_indices": list(kernel.left_minimal_indices),
+            **told(system, "n", "p", "m"),
+            **told(kernel, "normal_rank", "left_minimal_indices"),
             "right_minimal_indices": list(self.right_minimal_indices),
             "invariant_zero_polynomial": written(self.invariant_zero_polynomial, system.field),
-            "infinite_zero_orders": list(self.infinite_zero_orders),
-            "zeta": self.zeta,
+            **told(self, "infinite_zero_orders", "zeta"),
             "lag": kernel.lag,
-            "observable": self.observable,
-            "controllable": self.controllable,
-            "left_invertible": self.left_invertible,
-            "delay_known_state": self.delay_known_state,
-            "delay_unknown_state": self.delay_unknown_state,
+            **told(self, "observable", "controllable", "left_invertible", "delay_known_state", "delay_unknown_state"),
             "window_ranks": [kernel.rank(s) for s in windows],
             "fault_space_dimensions": [fault_space_dimension(kernel, s) for s in windows],
             "fault_space_dimension": self.fault_space.dimension,

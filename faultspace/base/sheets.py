@@ -4,16 +4,18 @@ Sheet      (name, value) pairs; a pair without a value is a heading, one without
 line       one pair as a line of text
 counted    a number with its noun: 1 sample, 2 samples
 decibels   the natural logarithm of a ratio of powers in dB, which people know
+told       some attributes of a record as JSON has them
 Shown      gives a record with `title` and `sheet` its `summary()`, a short `repr` and the table that a notebook shows
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from math import log
 from textwrap import fill
+from typing import Any
 
 from .others_text import lines, printable
 
@@ -85,3 +87,18 @@ class Shown(ABC):
             for name, value in self.sheet()
         )
         return f"<table><caption>{escape(self.title)}</caption>{rows}</table>"
+
+
+def told(record: object, *names: str) -> dict[str, Any]:
+    """Return these attributes of a record as JSON has them: records by their own `to_json`, tuples as lists, other numbers as texts."""
+    return {name: _as_json(getattr(record, name)) for name in names}
+
+
+def _as_json(value: Any) -> Any:
+    if hasattr(value, "to_json"):
+        return value.to_json()
+    if isinstance(value, Mapping):
+        return {name: _as_json(one) for name, one in value.items()}
+    if isinstance(value, (tuple, list)):
+        return [_as_json(one) for one in value]
+    return value if value is None or isinstance(value, (str, int, float)) else str(value)

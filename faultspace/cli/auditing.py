@@ -30,13 +30,11 @@ from ..base.progress import working
 from ..base.writing import write_text
 from ..numeric.audit.checks.catalogue import chosen
 from ..numeric.audit.expectations import as_expected, expected_in
-from ..numeric.audit.names import named
 from ..numeric.audit.outcome import Audit, FunctionTally
 from ..numeric.audit.peers import PEERS
-from ..numeric.audit.records import GREEN, CheckResult, Demand, Status, grouped
-from ..numeric.audit.reports.badge import endpoint, svg
-from ..numeric.audit.reports.junit import document
-from ..numeric.audit.reports.words import lines_of
+from ..numeric.audit.records import GREEN, CheckResult, Demand, Status, grouped, named
+from ..numeric.audit.reports.causes import lines_of
+from ..numeric.audit.reports.machines import endpoint, junit_xml, svg
 from ..numeric.audit.running import audit
 from ..numeric.audit.subjects.opening import opened
 from .consoles import answers, full_width, paragraph, print_json, print_table
@@ -116,7 +114,7 @@ def report(found: Audit, *, junit: Path | None, badge: Path | None, detail: int,
     if badge is not None and badge.suffix not in (".svg", ".json"):
         raise InvalidInput(f"--badge: got {quote_path(str(badge))}, expected a file that ends in .svg or .json")
     if junit is not None:
-        write_text(junit, document(found.adapter, found.results))
+        write_text(junit, junit_xml(found.adapter, found.results))
     if badge is not None:
         write_text(badge, svg(found.results) if badge.suffix == ".svg" else json.dumps(endpoint(found.results)) + "\n")
     if as_json:

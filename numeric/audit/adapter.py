@@ -6,7 +6,7 @@
     fault_dimension(r) -> n_v                             the number of independent faults
     fault_space(r, A, C, n_v, block_rows) -> Z            all columns [f; g] that explain r, (n + p, n_z); any basis
     reconstruct(r, A, F, C, G, x0) -> v                   the fault signal (N, m) from the known initial state
-    structure(A, F, C, G) -> ZeroStructure                    zeros and ranks of the system from v to r
+    structure(A, F, C, G) -> ZeroStructure                zeros and ranks of the system from v to r (or a mapping with some of its names)
     count_faults(y, u, order) -> n_v                      the number of faults in outputs and inputs, without a residual
     identified_fault_space(y, u, order, n_v) -> A, C, Z   a model and all columns [f; g] in its states
 
@@ -16,8 +16,8 @@ it is not: that may be refused); whether it is used is the implementation's own 
 ArithmeticError, or to return None; any other exception is a crash. The last two functions ask what `identify` of the library answers from a
 record; under noise a refusal stands for "undecided", and is no failure.
 
-    FUNCTIONS    the names above
-    offered      the functions that an object or module has
+    ARGUMENTS, FUNCTIONS    the names above, with those of their arguments, and alone
+    offered      the functions that an object or module has;   fitting: the same, each seen to take what the audit gives it
     not_promised what it says it never promised; excused: the reason for a check
     guarded      a function whose refusals raise Refused and whose crashes raise Broken
     load         the object that `module:object`, `file.py:object`, a module or a file names
@@ -27,28 +27,30 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import inspect
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from pathlib import Path
-from typing import Any, Protocol, TypeGuard
+from typing import Any, TypeGuard
 
-from ...base.arrays import Array
 from ...base.errors import InvalidData, shorten
+from ...base.sheets import counted
 from .records import Broken, Check, Function, Refused
 
-FUNCTIONS = (
-    "identify",
-    "residual",
-    "window_ranks",
-    "fault_dimension",
-    "fault_space",
-    "reconstruct",
-    "structure",
-    "count_faults",
-    "identified_fault_space",
-)
+ARGUMENTS: dict[str, tuple[str, ...]] = {
+    "identify": ("y", "u", "order", "block_rows"),
+    "residual": ("y", "u", "A", "B", "C", "D"),
+    "window_ranks": ("r", "windows"),
+    "fault_dimension": ("r",),
+    "fault_space": ("r", "A", "C", "n_v", "block_rows"),
+    "reconstruct": ("r", "A", "F", "C", "G", "x0"),
+    "structure": ("A", "F", "C", "G"),
+    "count_faults": ("y", "u", "order"),
+    "identified_fault_space": ("y", "u", "order", "n_v"),
+}
+FUNCTIONS = tuple(ARGUMENTS)
 
 
 @dataclass(frozen=True)
@@ -66,66 +68,43 @@ class ZeroStructure:
     left_invertible: bool
 
 
-class Identifies(Protocol):
-    """This is an implementation that identifies."""
-
-    def identify(self, y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]: ...
-
-
-class Simulates(Protocol):
-    """This is an implementation that makes residuals."""
-
-    def residual(self, y: Array, u: Array, A: Array, B: Array, C: Array, D: Array) -> Any: ...
-
-
-class RanksWindows(Protocol):
-    """This is an implementation that ranks Hankel matrices."""
-
-    def window_ranks(self, r: Array, windows: int) -> Sequence[int]: ...
-
-
-class CountsFaults(Protocol):
-    """This is an implementation that counts faults."""
-
-    def fault_dimension(self, r: Array) -> int | None: ...
-
-
-class FindsFaults(Protocol):
-    """This is an implementation that finds fault matrices."""
-
-    def fault_space(self, r: Array, A: Array, C: Array, n_v: int, block_rows: int) -> Any: ...
-
-
-class Reconstructs(Protocol):
-    """This is an implementation that reconstructs fault signals."""
-
-    def reconstruct(self, r: Array, A: Array, F: Array, C: Array, G: Array, x0: Array) -> Any: ...
-
-
-class KnowsStructure(Protocol):
-    """This is an implementation that finds zeros. A mapping with some names of `ZeroStructure` will do."""
-
-    def structure(self, A: Array, F: Array, C: Array, G: Array) -> ZeroStructure | Mapping[str, Any]: ...
-
-
-class CountsFromRecords(Protocol):
-    """This is an implementation that counts faults without a residual; None stands for undecided."""
-
-    def count_faults(self, y: Array, u: Array, order: int) -> int | None: ...
-
-
-class FindsFromRecords(Protocol):
-    """This is an implementation that finds a model and the fault matrices in its states."""
-
-    def identified_fault_space(self, y: Array, u: Array, order: int, n_v: int) -> tuple[Any, Any, Any] | None: ...
-
-
 def offered(implementation: object) -> dict[str, Function]:
     """Return name -> function for those of FUNCTIONS that the implementation has. Raises InvalidData where it has none."""
     found = {name: getattr(implementation, name) for name in FUNCTIONS if callable(getattr(implementation, name, None))}
     if not found:
         raise InvalidData(f"the adapter has none of the functions {', '.join(FUNCTIONS)}: define one at least")
     return found
+
+
+def fitting(implementation: object) -> dict[str, Function]:
+    """Return name -> function for what the implementation offers. Raises InvalidData where it offers nothing, and for a function that
+    cannot be called with the arguments that the audit gives it, by position.
+    """
+    found = offered(implementation)
+    for name, function in found.items():
+        asked = ARGUMENTS[name]
+        taken = _signature(function)
+        try:
+            if taken is not None:
+                taken.bind(*asked)
+        except TypeError:
+            raise InvalidData(
+                f"the adapter's {name}: got {name}{_shown(taken)}, expected a function that takes {counted(len(asked), 'argument')} by "
+                f"position: {name}({', '.join(asked)})"
+            ) from None
+    return found
+
+
+def _signature(function: Any) -> inspect.Signature | None:
+    """Return None for a function that does not tell, as some that are written in C."""
+    try:
+        return inspect.signature(function)
+    except (TypeError, ValueError):
+        return None
+
+
+def _shown(signature: Any) -> str:
+    return str(signature.replace(return_annotation=inspect.Signature.empty))
 
 
 def known(offered: object) -> TypeGuard[list[str]]:

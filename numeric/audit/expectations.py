@@ -17,8 +17,7 @@ from pathlib import Path
 from ...base.errors import InvalidData, InvalidInput, quote_path, shorten
 from ...base.regular_files import open_regular
 from ...base.writing import reason
-from .names import named
-from .records import CheckResult, Status
+from .records import CheckResult, Status, named
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,8 @@ from typing import Any, overload
 from ...base.errors import InvalidData, quote_path
 from ...base.sheets import Shown, counted
 from .records import CheckResult, Demand, Status
-from .reports.causes import Cause, causes
+from .reports.causes import Cause, causes, lines_of
 from .reports.versions import versions
-from .reports.words import lines_of
 
 FORMAT = "faultspace-audit-result/1"
 

@@ -3,7 +3,7 @@
 Check         slug, function tested, vector, claim, effect on a user, severity, kind, and `measure`, which calls the function
 Measurement   quantity, got, bound: a distance from the exact answer, and what rounding may make of it
 Sides         the answer beside the truth that a measurement compared, and the way of comparing
-Named         what both are called by
+Named         what both are called by;   named, patterned: whether a name or a pattern with * and ? fits one, whether it is a pattern
 CheckResult   a check's outcome: verdict (a Status), the worst measurement, in words what happened
 Demand        must-hold, must-refuse (an answer is the failure) or free (told, never failed)
 NEARNESS      how many bounds off is near
@@ -19,11 +19,13 @@ first_difference   where in a record the answer begins to differ
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields
 from enum import StrEnum
 from fractions import Fraction
+from functools import cache
 from math import inf, isfinite, isnan
 from typing import Any
 
@@ -89,7 +91,7 @@ GREEN = frozenset({Status.PASS, Status.NOT_OFFERED, Status.EXPECTED})
 class Sides:
     """The answer stands beside the truth, both in the units of the question, as numbers or nested lists of them (Fraction where exact).
 
-    of: what of the answer was compared, a key of `upstream.recipes.RECIPES`. bounds: what rounding allows, a number or a list of the
+    of: what of the answer was compared, a key of `upstream.exporting.RECIPES`. bounds: what rounding allows, a number or a list of the
     truth's shape. given: what the way of comparing needs besides, by name. place: the indices of the entry that is furthest off, where
     single entries are compared.
     """
@@ -144,6 +146,21 @@ class Named:
     def names(self) -> tuple[str, str, str]:
         """These are its names for itself, with that of other functions, with all of its slug."""
         return self.full_name, self.name, self.slug
+
+
+def patterned(name: str) -> bool:
+    """This tells whether the name holds * or ?; brackets are part of names."""
+    return "*" in name or "?" in name
+
+
+def named(one: Named, name: str) -> bool:
+    """This tells whether one of the names of a check or a result is `name`, in which * stands for any characters and ? for one."""
+    return any(_pattern(name).fullmatch(known) for known in one.names)
+
+
+@cache
+def _pattern(name: str) -> re.Pattern[str]:
+    return re.compile("".join({"*": ".*", "?": "."}.get(letter, re.escape(letter)) for letter in name))
 
 
 @dataclass(frozen=True)

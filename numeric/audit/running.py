@@ -19,11 +19,9 @@ from ...base.processes import Limits
 from ...base.progress import Progress, silent
 from .checks.catalogue import chosen
 from .expectations import ExpectedFailure, as_expected
-from .names import named
 from .outcome import Audit
-from .records import Broken, Check, CheckResult, Status, message
-from .reports.causes import causes, folded, told
-from .reports.words import lines_of
+from .records import Broken, Check, CheckResult, Status, message, named
+from .reports.causes import causes, folded, lines_of, told
 from .subjects.isolation import Isolated
 from .subjects.opening import Auditee, Command, InProcess, label, opened
 from .vectors.trouble import SEED

@@ -4,7 +4,6 @@
     following    floats: starts, descents, changes of sign along paths between points
     rounding     from a float to a rational point of the zero set, exactly
     engine       one attack from its starts to its end
-    spectra      inputs by their reflection coefficients, where the determinant of a limit is of low degree in one parameter
     float_limits the limits of PI-MOESP and PO-MOESP in floats, for speed; nothing is decided by them
     limit_attacks, limit_catalogue, feedback_attacks   experiments and their limits
     structure_attacks, pair_attacks   systems, and pairs of fault matrices

@@ -15,18 +15,18 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TypeVar
 
 from ...base.progress import Progress
 from ...base.sheets import counted
 from ...base.tasks import ordered, processes
 from ..evidence.attacks import Attacked
 from ..rocq.locks import kept
+from ..verdict.verdicts import Outcome, ReadingResult, Row, Verdict
 from .catalogue import WITHOUT, attacks_on, catalogue
 from .results import AttackRecord, checked_again, run_attacks, stored
 
-if TYPE_CHECKING:
-    from ..verdict.verdicts import ReadingResult, Row
+Found = TypeVar("Found", bound=Outcome)
 
 SECONDS = 15.0
 COMMAND = "python -m faultspace.proofs.adversary --stale --out proofs/adversary/results.json"
@@ -81,37 +81,30 @@ def looked_at_again(attacks: Attacking, targets: Sequence[str], jobs: int) -> At
 
 def of_reading(result: ReadingResult, claim: str, attacks: Attacking) -> ReadingResult:
     """Return the result with its attacks; its verdict gives way to a counterexample."""
-    from ..verdict.verdicts import Verdict  # which needs the records of this folder
-
     target = f"{claim}.{result.reading.id}"
     found = attacks.on(target)
-    result = replace(result, attacks=found)
-    if result.outcome.verdict in (Verdict.REFUTED, Verdict.ERROR):
-        return result
-    words = _against(found) or _unfounded(target, result.reading.theorems, found)
-    if words is None:
-        return result
-    verdict = Verdict.REFUTED if any(one.refutes for one in found) else Verdict.ERROR
-    return replace(result, outcome=replace(result.outcome, verdict=verdict, evidence=f"{words}; {result.outcome.evidence}"))
+    return replace(result, attacks=found, outcome=_attacked(result.outcome, target, result.reading.theorems, found))
 
 
 def of_row(row: Row, attacks: Attacking) -> Row:
     """Return the row with its attacks; the verdict of a row without a single hypothesis gives way to a counterexample."""
-    from ..verdict.verdicts import Verdict
-
     if len(row.dropped) != 1:
         return row
     target = f"{WITHOUT}{row.ablation}: {row.dropped[0]}"
     found = attacks.on(target)
-    row = replace(row, attacks=found)
-    if row.verdict in (Verdict.REFUTED, Verdict.ERROR):
-        return row
     # What is implied by the other hypotheses is met by every case that meets them: there is nothing to attack.
-    words = _against(found) or (_unfounded(target, row.theorems, found) if row.implied is None else None)
+    return _attacked(replace(row, attacks=found), target, row.theorems, found, implied=row.implied is not None)
+
+
+def _attacked(outcome: Found, target: str, theorems: Sequence[str], found: tuple[Attacked, ...], *, implied: bool = False) -> Found:
+    """Return the outcome, or what it gives way to."""
+    if outcome.verdict in (Verdict.REFUTED, Verdict.ERROR):
+        return outcome
+    words = _against(found) or (None if implied else _unfounded(target, theorems, found))
     if words is None:
-        return row
+        return outcome
     verdict = Verdict.REFUTED if any(one.refutes for one in found) else Verdict.ERROR
-    return replace(row, verdict=verdict, evidence=f"{words}; {row.evidence}")
+    return replace(outcome, verdict=verdict, evidence=f"{words}; {outcome.evidence}")
 
 
 @cache
@@ -132,7 +125,6 @@ def _unfounded(target: str, theorems: Sequence[str], found: tuple[Attacked, ...]
 
 def _against(found: tuple[Attacked, ...]) -> str | None:
     """Say what the attacks hold against the statement: a counterexample, or something stored that was not found again."""
-    for one in found:
-        if one.refutes:
-            return f"the adversary, {one.id}: {one.words}"
-    return next((f"the adversary, {one.id}: {one.trouble}" for one in found if one.trouble and one.trouble.startswith("not found")), None)
+    against = [(one, one.words) for one in found if one.refutes]
+    against += [(one, one.trouble) for one in found if one.trouble is not None and not one.stale]
+    return next((f"the adversary, {one.id}: {words}" for one, words in against), None)

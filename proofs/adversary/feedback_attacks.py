@@ -32,6 +32,7 @@ from ..evidence.experiments import LimitEvidence, examine_experiment
 from ..trust.limit_certificates import certificates_of
 from .float_limits import Drawn, exact_experiment, float_limits, outside
 from .limit_attacks import POLE, chain, describe
+from .structure_families import cut
 from .witnesses import confirmed
 
 Fails = Callable[[LimitEvidence, PopulationLimits], bool]
@@ -51,7 +52,8 @@ def feedback_attacks() -> Iterator[Attack]:
             note = "its leading left singular vectors span the range of O_s, B and D by output error are right"
             yield _attack("for-every-system", family, LEADING, leading_gap, partial(_decide, family, _leading_right, note), (bias, leaving))
         outer = Block(partial(_outside, family), (*of_F, *of_G))
-        yield _attack("a-c-wrong", family, SHARE, _share, partial(_decide, family, _range_right, "its range is that of O_s"), (outer,))
+        decide = partial(_decide, family, lambda evidence, found: evidence.equal, "its range is that of O_s")
+        yield _attack("a-c-wrong", family, SHARE, _share, decide, (outer,))
 
 
 def _attack(
@@ -82,16 +84,13 @@ def _family(n: int, p: int, past: int) -> Family:
     box = [POLE] * n + [(-2.0, 2.0)] * (p * n + n + p + n)
 
     def at(point: Sequence[Any]) -> Drawn:
-        values = list(point)
-        poles, values = values[:n], values[n:]
-        C, values = [values[i * n : (i + 1) * n] for i in range(p)], values[p * n :]
-        F, values = [[x] for x in values[:n]], values[n:]
+        (poles,), C, F, G, B, _ = cut(point, (1, n), (p, n), (n, 1), (p, 1), (n, 1))
         return Drawn(
             A=chain(poles),
             F=F,
             C=C,
-            G=[[x] for x in values[:p]],
-            B=[[x] for x in values[p:]],
+            G=G,
+            B=B,
             D=[[0]] * p,
             s=n + 1,
             past=past,
@@ -165,13 +164,4 @@ def _decide(family: Family, fails: Fails, note: str, point: Point) -> Witness | 
 
 
 def _leading_right(evidence: LimitEvidence, found: PopulationLimits) -> bool:
-    return _inputs_right(evidence) and found.leading_vectors_right(found.past_inputs)
-
-
-def _range_right(evidence: LimitEvidence, found: PopulationLimits) -> bool:
-    return evidence.equal
-
-
-def _inputs_right(evidence: LimitEvidence) -> bool:
-    system = evidence.experiment.system
-    return evidence.state_inputs == (system.B, system.D)
+    return evidence.output_error_right and found.leading_vectors_right(found.past_inputs)

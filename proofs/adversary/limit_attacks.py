@@ -4,11 +4,21 @@ shaped_family      n states of given poles, one input of any colour by its refle
 led_family         a fault that leads the input, or comes with it
 open_family        every matrix of the system free, u and v independent
 decided_by         an exact decision from a test on certified limits
+shaped_input       a Shaped, numerator and denominator of a scalar filter ascending in lag: from reflection coefficients k_1, ..., k_N and
+                   the zeros and gain of the Schur function that remains after them
+
+Every value of the reflection coefficients in (-1, 1) gives a stationary input with a rational filter.
+With z = q^-1 the spectrum of u is (1 - |f|^2) / |1 - z f|^2 for a Schur function f, and f is k_1, ..., k_N followed by what remains, by
+f_(i-1) = (k_i + z f_i) / (1 + k_i z f_i). Written f_i = p_i / q_i this is p_(i-1) = k_i q_i + z p_i, q_(i-1) = q_i + k_i z p_i, and
+|q|^2 - |p|^2 only changes by the factor 1 - k_i^2. What remains is a gain c times a Blaschke product of real zeros b: with |c| < 1 the
+spectrum has the factor (1 - b z) ... over 1 - z f, and u = that filter of white noise, up to scale. gain 0: autoregressive of order N.
+The covariances of u up to lag i depend on k_1, ..., k_i alone. Source: [S17].
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -21,7 +31,7 @@ from ..evidence.attacks import Family, Point, Witness
 from ..evidence.experiments import LimitEvidence, examine_experiment
 from ..trust.limit_certificates import certificates_of
 from .float_limits import Drawn, exact_experiment
-from .spectra import Shaped, shaped_input
+from .structure_families import cut
 from .witnesses import confirmed
 
 POLE = (-0.97, 0.97)
@@ -134,11 +144,7 @@ def led_family(n: int, p: int, phi: Sequence[int], *, reflections: int = 0, taps
     lead = len(phi) - 1
 
     def at(point: Sequence[Any]) -> Drawn:
-        values = list(point)
-        poles, values = values[:n], values[n:]
-        C, values = [values[i * n : (i + 1) * n] for i in range(p)], values[p * n :]
-        B, values = [[x] for x in values[:n]], values[n:]
-        G, values = [[x] for x in values[:p]], values[p:]
+        (poles,), C, B, G, values = cut(point, (1, n), (p, n), (n, 1), (p, 1))
         u = shaped_input(values[:reflections])
         numerator = [*u.numerator, *values[reflections:]] if taps else list(u.numerator)
         fault: list[Any] = [0] * (len(numerator) + lead)
@@ -172,13 +178,7 @@ def open_family(n: int, p: int) -> Family:
     box = [POLE] * n + [(-2.0, 2.0)] * (p * n + n + p + n) + [(-0.9, 0.9)] * 2
 
     def at(point: Sequence[Any]) -> Drawn:
-        values = list(point)
-        poles, values = values[:n], values[n:]
-        C, values = [values[i * n : (i + 1) * n] for i in range(p)], values[p * n :]
-        F, values = [[x] for x in values[:n]], values[n:]
-        G, values = [[x] for x in values[:p]], values[p:]
-        B, values = [[x] for x in values[:n]], values[n:]
-        v_tap, v_pole = values
+        (poles,), C, F, G, B, (v_tap, v_pole) = cut(point, (1, n), (p, n), (n, 1), (p, 1), (n, 1))
         return Drawn(
             A=chain(poles),
             F=F,
@@ -196,3 +196,38 @@ def open_family(n: int, p: int) -> Family:
 
     words = f"n = {n}, p = {p}, s = {n + 1}, past = {n}, all matrices free, white u, coloured v of its own noise"
     return Family(words, tuple(box), at)
+
+
+@dataclass(frozen=True)
+class Shaped:
+    """A filter makes u = (sum numerator_j q^-j / sum denominator_j q^-j) e; the denominator begins with 1 and is Schur-stable."""
+
+    numerator: tuple[Any, ...]
+    denominator: tuple[Any, ...]
+
+
+def shaped_input(coefficients: Sequence[Any], zeros: Sequence[Any] = (), gain: Any = 0) -> Shaped:
+    """Return the input with these reflection coefficients, each in (-1, 1), and the remaining Schur function gain * prod (z - b)/(1 - b
+    z)."""
+    p, q = [gain], [gain * 0 + 1]
+    for b in zeros:
+        p, q = _times(p, (-b, 1)), _times(q, (1, -b))
+    numerator = q
+    for k in reversed(coefficients):
+        shifted = [0, *p]
+        p, q = _sum([k * x for x in q], shifted), _sum(q, [k * x for x in shifted])
+    denominator = _sum(q, [-x for x in (0, *p)])
+    return Shaped(tuple(numerator), tuple(denominator))
+
+
+def _times(first: Sequence[Any], second: Sequence[Any]) -> list[Any]:
+    result = [0 * first[0]] * (len(first) + len(second) - 1)
+    for i, x in enumerate(first):
+        for j, y in enumerate(second):
+            result[i + j] = result[i + j] + x * y
+    return result
+
+
+def _sum(first: Sequence[Any], second: Sequence[Any]) -> list[Any]:
+    size = max(len(first), len(second))
+    return [(first[i] if i < len(first) else 0) + (second[i] if i < len(second) else 0) for i in range(size)]

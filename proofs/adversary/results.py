@@ -40,6 +40,7 @@ from .following import NOTHING
 FORMAT = "faultspace-adversary/1"
 FILE = "results.json"
 COUNTEREXAMPLE, CHANGE, NONE = "counterexample", "change of sign", "none found"
+NOT_AGAIN = "not found again: "
 AGAIN = 1.0  # a search on record that took so many seconds of a processor is done again in every run
 PATIENCE = 8  # and may take so many times as long, on a busy machine
 
@@ -176,15 +177,17 @@ def _digest(target: str) -> str | None:
 
 
 def _attacked(record: AttackRecord, attack: Attack | None) -> Attacked:
+    name = record["attack"]
     if record["outcome"] != _outcome(record["witness"], record["bracket"]):
-        return Attacked(record["attack"], "its record is not told", False, "not found again: its outcome is not that of the points stored")
+        return Attacked(name, "its record is not told", False, f"{NOT_AGAIN}its outcome is not that of the points stored")
     words = words_of(record) if "whole" not in record else f"On record: {words_of(record)}"
     if not record.get("whole", True):
-        return Attacked(record["attack"], words, False, f"not found again: {FILE} is not the file whose SHA-256 it tells")
+        return Attacked(name, words, False, f"{NOT_AGAIN}{FILE} is not the file whose SHA-256 it tells")
     if record["statement_sha256"] != _digest(record["target"]):
-        return Attacked(record["attack"], words, False, "out of date: the statement has changed since, so that the attack must run again")
+        old = "out of date: the statement has changed since, so that the attack must run again"
+        return Attacked(name, words, False, old, stale=True)
     if attack is None:
-        return Attacked(record["attack"], words, False, "out of date: the attack is no longer in the catalogue")
+        return Attacked(name, words, False, "out of date: the attack is no longer in the catalogue", stale=True)
     trouble = _again(record, attack)
     trial = None if trouble else _searched_again(record, attack)
     if trial is not None:
@@ -192,8 +195,8 @@ def _attacked(record: AttackRecord, attack: Attack | None) -> Attacked:
         found = "a counterexample" if against else "no counterexample"
         did = f"the same search now: {trial.evaluations} values, {trial.decided} points decided exactly"
         words += f"; {'the beginning of it now' if _long(record) else did}, {found}"
-        trouble = "not found again: the search found nothing, and finds something now" if against else None
-    return Attacked(record["attack"], words, refuting(record) and trouble is None, trouble)
+        trouble = "the search found nothing, and finds something now" if against else None
+    return Attacked(name, words, refuting(record) and trouble is None, f"{NOT_AGAIN}{trouble}" if trouble else None)
 
 
 def _searched_again(record: AttackRecord, attack: Attack) -> Trial | None:
@@ -211,29 +214,29 @@ def _again(record: AttackRecord, attack: Attack) -> str | None:
     """Return what of a record is not found again; None where all of it is."""
     told = {"family": attack.family.words, "aim": attack.aim, "measured": attack.measured}
     if other := [name for name, words in told.items() if record[name] != words]:
-        return f"not found again: another {other[0]} was stored than the attack has"
+        return f"another {other[0]} was stored than the attack has"
     if record["starts"] != attack.starts:
-        return f"not found again: the attack has {attack.starts} starts, and {record['starts']} were stored"
+        return f"the attack has {attack.starts} starts, and {record['starts']} were stored"
     if len(record["point"]) != len(attack.family.box):
-        return f"not found again: the attack has {len(attack.family.box)} parameters, and the stored point {len(record['point'])}"
+        return f"the attack has {len(attack.family.box)} parameters, and the stored point {len(record['point'])}"
     value, before = value_at(attack, record["point"]), record["nearest"]
     # Written so that what is no number fails.
     if not abs(value - before) <= 0.01 * max(value, before) and not max(before, value) <= NOTHING:
-        return f"not found again: the value at the stored point is {value:.3e}, and {before:.3e} was stored"
+        return f"the value at the stored point is {value:.3e}, and {before:.3e} was stored"
     if record["witness"] is not None:
         witness = attack.decide(tuple(Fraction(x) for x in record["witness"]["point"]))
         if witness is None:
-            return "not found again: the stored point is no counterexample"
+            return "the stored point is no counterexample"
         if _named(witness.certificates) != record["witness"]["certificates"]:
-            return "not found again: the certificates of the counterexample are other ones than those stored"
+            return "the certificates of the counterexample are other ones than those stored"
         if witness.words != record["witness"]["words"]:
-            return "not found again: the counterexample has other words than those stored"
+            return "the counterexample has other words than those stored"
     if record["bracket"] is not None:
         first, second = (tuple(Fraction(x) for x in point) for point in record["bracket"])
         if attack.exact is None or attack.aim != Aim.SIGN:
-            return "not found again: the attack seeks no change of sign"
+            return "the attack seeks no change of sign"
         if not all(low <= x <= high for point in (first, second) for x, (low, high) in zip(point, attack.family.box, strict=True)):
-            return "not found again: a stored point is not in the family"
+            return "a stored point is not in the family"
         if attack.exact(first) * attack.exact(second) >= 0:
-            return "not found again: the signs at the two stored points agree"
+            return "the signs at the two stored points agree"
     return None

@@ -16,14 +16,14 @@ from random import Random
 
 from flint import fmpq, fmpq_poly
 
-from ...exact.algebra.matrices import Matrix, beside, column_basis, left_null_space, rank, solve_left, stacked
+from ...exact.algebra.matrices import Matrix, left_null_space, rank, stacked
 from ...exact.pairs.bad_variety import bad_equations
 from ...exact.pairs.polynomial import Exceptional, polynomial_at
 from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
-from ...exact.system.windows import reachability_matrix
 from ..claims.common import delays, ranks_and_inversion, spaces, zeros
+from ..claims.windows import first_column_conditions, reachable_part
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.attacks import Aim, Attack, Family, Point, Witness
 from ..evidence.corpus import Evidence, examine
@@ -194,18 +194,7 @@ def _first_column(system: ResidualSystem) -> Found | None:
     if not (d.observable and d.left_invertible):
         return None
     window = kernel.lag + 1
-    outputs = [beside(Matrix.zero(system.field, system.p, system.n), Matrix.identity(system.field, system.p))]
-    state = beside(Matrix.identity(system.field, system.n), Matrix.zero(system.field, system.n, system.p))
-    for _ in range(window - 1):
-        outputs.append(system.C @ state)
-        state = system.A @ state
-    conditions = [
-        sum(
-            (row.coefficients.rows([k]) @ outputs[k + shift] for k in range(1, row.degree + 1)), row.coefficients.rows([0]) @ outputs[shift]
-        )
-        for row in kernel.rows_within(window)
-        for shift in range(window - row.degree)
-    ]
+    conditions = first_column_conditions(kernel, window)
     found = left_null_space(stacked(*conditions).transposed()) if conditions else Matrix.zero(system.field, 0, 0)
     space = fault_space(kernel, window).basis
     for i in range(found.nrows):
@@ -229,11 +218,7 @@ def _transfer_zeros(system: ResidualSystem) -> Found | None:
     d = examine("adversary", system)
     if not (d.observable and d.left_invertible and not d.controllable):
         return None
-    basis = column_basis(reachability_matrix(system))
-    parts = [solve_left(basis.transposed(), part.transposed()) for part in (system.A @ basis, system.F)]
-    if parts[0] is None or parts[1] is None:
-        raise ArithmeticError("the reachable subspace is not invariant")
-    part = ResidualSystem(parts[0].transposed(), parts[1].transposed(), system.C @ basis, system.G)
+    part = reachable_part(system)
     certificates = [*zeros(system), make.finite_zeros(part), make.infinite_zeros(part)]
     zeta = len(certificates[-2]["statement"]["invariant_zero_polynomial"]) - 1 + sum(certificates[-1]["statement"]["infinite_zero_orders"])
     fails = any(d.kernel.rank(s) != d.system.n + s * d.system.m - zeta for s in range(max(d.system.n, 1), d.system.n + 3))

@@ -9,6 +9,7 @@ rank_one_family    G of rank one: zeros at infinity
 pencil, feedthrough, product, seen, reached   square parts of P(z), G, CF, O_n, [F AF ...]
 determinant        by expansion, the same for floats and Fractions
 system_of          the exact system
+cut                tables cut off a list of numbers
 hadamard           a determinant in floats against the product of the lengths of its rows
 """
 
@@ -54,8 +55,8 @@ def free_family(n: int, p: int, m: int, *, feedthrough: bool = True) -> Family:
     count = n * n + n * m + p * n + (p * m if feedthrough else 0)
 
     def at(point: Sequence[Any]) -> Tables:
-        A, F, C, rest = _cut(point, (n, n), (n, m), (p, n))
-        return Tables(A, F, C, _cut(rest, (p, m))[0] if feedthrough else [[0] * m for _ in range(p)])
+        A, F, C, rest = cut(point, (n, n), (n, m), (p, n))
+        return Tables(A, F, C, cut(rest, (p, m))[0] if feedthrough else [[0] * m for _ in range(p)])
 
     return Family(f"n = {n}, p = {p}, m = {m}, every entry free{'' if feedthrough else ', G = 0'}", (ENTRY,) * count, at)
 
@@ -89,7 +90,7 @@ def rank_one_family(n: int, size: int) -> Family:
     count = n * n + 2 * n * size + 2 * size
 
     def at(point: Sequence[Any]) -> Tables:
-        A, F, C, rest = _cut(point, (n, n), (n, size), (size, n))
+        A, F, C, rest = cut(point, (n, n), (n, size), (size, n))
         g, h = rest[:size], rest[size:]
         return Tables(A, F, C, [[x * y for y in h] for x in g])
 
@@ -178,8 +179,8 @@ def _product(left: Rows, right: Rows) -> Rows:
     return [[sum(x * right[k][j] for k, x in enumerate(row)) for j in range(len(right[0]))] for row in left]
 
 
-def _cut(point: Sequence[Any], *shapes: tuple[int, int]) -> list[Any]:
-    """Cuts tables of these shapes off a list of numbers; what is left comes last."""
+def cut(point: Sequence[Any], *shapes: tuple[int, int]) -> list[Any]:
+    """Return tables of these shapes, cut off a list of numbers; what is left comes last."""
     values, found = list(point), []
     for rows, cols in shapes:
         found.append([values[i * cols : (i + 1) * cols] for i in range(rows)])

@@ -25,7 +25,8 @@ from .theorems import Proof
 class Counterexample:
     """`quantities` are those that the hypotheses and the conclusion read, by their words; `computed` names those without a certificate.
 
-    `smallest` tells whether it is the first of the box; else it was found outside, and made smaller as far as single steps led.
+    `smallest` tells whether it is the first of the box; else it is one of the known ones, made smaller as far as single steps led, and lies
+    outside the box where all of the box was tried.
     """
 
     case: Case
@@ -169,7 +170,7 @@ class ClaimAnswer(Shown):
         if self.verdict == Answered.VACUOUS:
             yield "vacuous", "nothing that was tried meets the hypotheses"
         if (found := self.counterexample) is not None:
-            kind = "smallest counterexample" if found.smallest else "counterexample outside the box"
+            kind = "smallest counterexample" if found.smallest else "counterexample, not from the box"
             yield kind, str(found.case)
             for name, value in found.words:
                 yield f"  {name}", value

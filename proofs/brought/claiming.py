@@ -48,17 +48,46 @@ def claim(
 ) -> ClaimAnswers:
     """Decide a claim of your own about all systems x(k+1) = A x + F v, r = C x + G v: refuted by the smallest counterexample, or not.
 
-    `conclusion` and `hypotheses` are expressions of the language of `docs/your-claims.md`, "delay_known <= n" say, or functions of Python
-    that take an object with the same words and return a bool: `lambda s: s.delay_known <= s.n`. With `about` "pair" or "pair with the same
-    (A, C)" it is about two systems: `lambda s: s.equal or s.first_difference <= s.first.n + 1`; with "choice" about a system and a P, with
-    "record" about a system and its data. `fields` lists "Q" and "GF(q)"; `box` has "n", "m", "p" (first and last number of states, faults,
-    outputs), "total" (the largest n + m + p) and "entries", and "k" of a choice, "nu" and "N" of a record. With `ablation` the claim is
-    tried without each of its hypotheses, too. `most` bounds the number of systems of the box that are gone through, `jobs` is a number of
-    processes, and `on_progress` is called with (stage, done, total). Each quantity of a counterexample comes with certificates,
-    as far as the checker has a kind for it, and names what has none. Source: [F75], [VD79] for what is asked of every window.
+    Each quantity of a counterexample comes with certificates, as far as the checker has a kind for it, and names what has none.
+    Source: [F75], [VD79] for what is asked of every window.
 
-    Raises InvalidInput for what is no expression, for an empty box, and where the claim has no value on a system, which it names.
+    Parameters
+    ----------
+    conclusion : str or callable
+        An expression of the language of `docs/your-claims.md`, "delay_known <= n" say, or a function of Python that takes an object with
+        the same words and returns a bool: `lambda s: s.delay_known <= s.n`.
+    hypotheses : list of str or callable
+        Likewise.
+    fields : list of str
+        "Q" and "GF(q)".
+    box : dict, optional
+        "n", "m", "p" (first and last number of states, faults, outputs), "total" (the largest n + m + p) and "entries"; "k" of a choice,
+        "nu" and "N" of a record.
+    about : str
+        "system"; "pair" or "pair with the same (A, C)" for two systems, as in `lambda s: s.equal or s.first_difference <= s.first.n + 1`;
+        "choice" for a system and a P, "record" for a system and its data.
+    statement, source : str
+        Words that the answer repeats.
+    ablation : bool
+        Whether the claim is tried without each of its hypotheses, too.
+    most : int
+        The largest number of systems of the box that are gone through.
+    jobs : int
+        A number of processes.
+    on_progress : callable, optional
+        Called as (stage, done, total).
 
+    Returns
+    -------
+    ClaimAnswers
+
+    Raises
+    ------
+    InvalidInput
+        For what is no expression, for an empty box, and where the claim has no value on a system, which it names.
+
+    Examples
+    --------
     >>> import faultspace as fs
     >>> found = fs.claim("all(gap(s) == m for s in windows(n))", hypotheses=["left_invertible"], box={"total": 4})
     >>> found.answers[0].verdict, found.answers[0].dropped[0].verdict

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ...base.sheets import Shown, counted
+from ...base.sheets import Shown, counted, told
 from ...exact.system.systems import ResidualSystem
 from ..language.vocabularies import SYSTEM
 from ..quantities.cases import Case
@@ -35,7 +35,7 @@ class Sharper:
         found = self.counterexample
         if found is None:
             return f"{self.text}: not refuted either"
-        return f"{self.text}: refuted by {found.case}" + ("" if found.smallest else " (outside the box)")
+        return f"{self.text}: refuted by {found.case}" + ("" if found.smallest else " (not from the box)")
 
     def to_json(self) -> dict[str, Any]:
         """Return an entry of "sharper" in the JSON answer."""
@@ -145,9 +145,9 @@ class Conjectures(Shown):
     that the quantities are found by. Raises nothing by itself.
 
     >>> import faultspace as fs
-    >>> found = fs.conjecture("lag", by=["n", "zeta"], box={"total": 3})
+    >>> found = fs.conjecture("lag", by=["n"], box={"total": 3})
     >>> [one.text for one in found.above], str(found.above[0].first)
-    (['lag <= n - zeta'], 'A=[[-1]], F=[[-1]], C=[[-1]], G=[[-1]]')
+    (['lag <= n'], 'A=[[-1]], F=[[0]], C=[[-1]], G=[[0]]')
     """
 
     target: str
@@ -197,19 +197,9 @@ class Conjectures(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return what `faultspace conjecture --json` prints."""
-        return {
-            "target": self.target,
-            "about": self.about,
-            "field": self.field,
-            "hypotheses": list(self.hypotheses),
-            "by": list(self.by),
-            "left_out": [{"name": name, **_parts(case)} for name, case in self.left_out.items()],
-            "above": [one.to_json() for one in self.above],
-            "below": [one.to_json() for one in self.below],
-            "equal": list(self.equal),
-            "grammar": dict(self.grammar),
-            "tried": self.tried.to_json(),
-        }
+        left_out = [{"name": name, **_parts(case)} for name, case in self.left_out.items()]
+        asked = told(self, "target", "about", "field", "hypotheses", "by")
+        return asked | {"left_out": left_out} | told(self, "above", "below", "equal", "grammar", "tried")
 
 
 @dataclass(frozen=True, repr=False)
@@ -272,20 +262,9 @@ class Sharpened(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return an entry of "sharpened" in the JSON answer."""
-        return {
-            "id": self.id,
-            "about": self.about,
-            "field": self.field,
-            "conclusion": self.conclusion,
-            "hypotheses": list(self.hypotheses),
-            "counterexample": None if self.counterexample is None else self.counterexample.to_json(),
-            "own": None if self.own is None else self.own.to_json(),
-            "words": [one.to_json() for one in self.words],
-            "others": [one.to_json() for one in self.others],
-            "left_out": [{"name": name, **_parts(case)} for name, case in self.left_out.items()],
-            "grammar": self.grammar,
-            "tried": self.tried.to_json(),
-        }
+        left_out = [{"name": name, **_parts(case)} for name, case in self.left_out.items()]
+        found = told(self, "id", "about", "field", "conclusion", "hypotheses", "counterexample", "own", "words", "others")
+        return found | {"left_out": left_out} | told(self, "grammar", "tried")
 
 
 def _parts(case: Case) -> dict[str, Any]:

@@ -2,6 +2,12 @@
 
 conjecture        bounds on a quantity by others: what `fs.conjecture` is
 sharpen           bounds in the place of a claim's, over each of its fields
+default_columns   what bounds are sought by where nothing is named: of systems all integer quantities and the ranks of A, F, C, G;
+                  of other kinds those of USUAL
+
+The values that quantities of two systems take together are many more than those of one: with all quantities of both, a box of pairs has
+more sets of values than a machine holds. What two systems share, since they have the same A and C or as many outputs, is named once. Ranks
+of data are taken at 1 sample and at n + 1, from which on those of systems are settled.
 """
 
 from __future__ import annotations
@@ -23,10 +29,10 @@ from ..language.evaluating import Asked
 from ..language.grammar import OF_A_MATRIX
 from ..language.linear import linear, words
 from ..language.nodes import Node
-from ..language.vocabularies import SYSTEM, VOCABULARIES
+from ..language.vocabularies import CHOICE, ONE_A_AND_C, PAIR, RECORD, SYSTEM, VOCABULARIES
 from ..quantities.cases import Case
 from ..quantities.elimination import Integers
-from ..quantities.registry import Kind
+from ..quantities.registry import Kind, quantities
 from .bounds import ABOVE, BELOW, Fit, Fitted, Form, Grammar, fit
 from .claims import Claim, about_what, expression, make_claim
 from .conjectures import Bound, Conjectures, Evidence, Sharpened, Sharper
@@ -35,11 +41,28 @@ from .known_bounds import known_as
 from .sparse_systems import Found, withstand
 from .tables import Row, Table, tabulate
 from .theorems import proof_of
-from .usual_columns import default_columns
 
 MOST = 10**9
 MOST_COLUMNS, MOST_TERMS, LARGEST_COEFFICIENT, LARGEST_CONSTANT, MOST_EQUAL = 40, 3, 3, 9, 5
 SIGNS = {ABOVE: "<=", BELOW: ">="}
+SIZES = ("n", "m", "p")
+RANKS = ("rank(A)", "rank(F)", "rank(C)", "rank(G)")
+USUAL = {
+    PAIR: ("p", "first_difference", *(f"{one}.{name}" for one in ("first", "second") for name in ("n", "m", "lag", "normal_rank", "n_z"))),
+    ONE_A_AND_C: (
+        *("n", "p", "first_difference", "first.observability_index"),
+        *(f"{one}.{name}" for one in ("first", "second") for name in ("m", "lag", "normal_rank", "n_z")),
+    ),
+    CHOICE: (
+        *("n", "m", "p", "k", "first_difference", "rank(P)", "observability_index"),
+        *(before + name for before in ("", "chosen.") for name in ("lag", "normal_rank", "n_z")),
+    ),
+    RECORD: (
+        *("n", "p", "nu", "N", "rank(B)", "rank(D)"),
+        *(f"inputs.{name}" for name in ("lag", "normal_rank", "observability_index", "uncontrollable_dimension")),
+        *(f"{name}({s})" for name in ("u_rank", "x_rank", "w_rank", "y_rank") for s in ("1", "n + 1")),
+    ),
+}
 
 
 @dataclass(frozen=True)
@@ -69,21 +92,40 @@ def conjecture(
 ) -> Conjectures:
     """Seek the sharpest bounds on a quantity of systems x(k+1) = A x + F v, r = C x + G v by other quantities, under hypotheses.
 
-    `target` is an expression of the language of `docs/your-claims.md`, `hypotheses` and `by` are lists of such; without `by` all integer
-    quantities and the ranks of A (n x n), F (n x m), C (p x n), G (p x m) are used. A bound is a sum of at most `terms` of them with
-    coefficients from -`largest` to `largest`, one of which may be the larger (below: the smaller) of two, and a constant from -`constant`
-    to `constant`; `terms` is 3 by default, and 2 where the bounds are about more than one system. What is answered is refuted by no system
-    of the box, no known one, no direct sum of two that stand for others, none of those that are drawn, and none of 90000 sparse ones (fewer
-    where drawing takes 30 s), and attained by a system of the box; none is implied by the others, and wherever a bound of this form is
-    attained in the box, one that is answered is, forms that equal the target everywhere, which are told apart, left aside. The next sharper
-    ones come with the smallest system that refutes them, and its certificates. A bound that follows from theorems of Rocq names them; else
-    none of this is a proof. With `about` "pair", "pair with the same (A, C)", "choice" or "record" the same is done with these, as `claim`
-    does it, in the place of systems. `field`, `box`, `most`, `jobs` and `on_progress` are those of `claim`. Source: [F75], [VD79] for the
-    ranks that the quantities are found by.
+    What is answered is refuted by no system of the box, no known one, no direct sum of two that stand for others, none of those that are
+    drawn, and none of 90000 sparse ones (fewer where drawing takes 30 s), and attained by a system of the box; none is implied by the
+    others, and wherever a bound of this form is attained in the box, one that is answered is, forms that equal the target everywhere, which
+    are told apart, left aside. The next sharper ones come with the smallest system that refutes them, and its certificates. A bound that
+    follows from theorems of Rocq names them; else none of this is a proof. Source: [F75], [VD79] for the ranks that the quantities are
+    found by.
 
-    Raises InvalidInput for what is no expression, for an empty box, where the target is infinite or an expression has no value on a
-    system, or a case of another kind, which is named, and for numbers out of range.
+    Parameters
+    ----------
+    target : str
+        An expression of the language of `docs/your-claims.md`.
+    hypotheses : list of str or callable
+    by : list of str, optional
+        What the bounds are made of; all integer quantities and the ranks of A (n x n), F (n x m), C (p x n), G (p x m) where it is not
+        given.
+    terms, largest, constant : int
+        A bound is a sum of at most `terms` of them with coefficients from -`largest` to `largest`, one of which may be the larger (below:
+        the smaller) of two, and a constant from -`constant` to `constant`; `terms` is 3 by default, and 2 where the bounds are about more
+        than one system.
+    field, box, about, most, jobs, on_progress
+        As for `claim`, with one field.
 
+    Returns
+    -------
+    Conjectures
+
+    Raises
+    ------
+    InvalidInput
+        For what is no expression, for an empty box, where the target is infinite or an expression has no value on a system, or a case of
+        another kind, which is named, and for numbers out of range.
+
+    Examples
+    --------
     >>> import faultspace as fs
     >>> found = fs.conjecture("delay_known", hypotheses=["left_invertible"], by=["n", "rank(G)"], box={"total": 4})
     >>> [one.text for one in found.above], found.above[0].sharper[0].text
@@ -359,3 +401,10 @@ def _number(value: object, name: str, least: int, most: int) -> int:
     if type(value) is not int or not least <= value <= most:
         raise InvalidInput(f"{name}: got {shorten(value)}, expected an integer from {least} to {most}")
     return value
+
+
+def default_columns(target: Node, about: str = SYSTEM) -> list[str]:
+    """Return them, but for what the target is a sum of; sizes stay."""
+    of_systems = (*sorted(one.name for one in quantities().values() if one.kind == Kind.INTEGER and not one.windowed), *RANKS)
+    inside = set(linear(target).multiples)
+    return [name for name in USUAL.get(about, of_systems) if name not in inside or (name in SIZES and name != target.text)]

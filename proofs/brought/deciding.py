@@ -24,8 +24,7 @@ from ..trust.structure_certificates import Certificate, Unprovable, accept, sha2
 from .answers import ClaimAnswer, Counterexample, Dropped, Tried
 from .claims import Answered, Claim
 from .kept import Sharing
-from .known_cases import known_cases, smaller
-from .known_systems import ADVERSARY, CORPUS
+from .known_cases import ADVERSARY, CORPUS, known_cases, smaller
 from .theorems import Proof, proof_of
 from .trying import Found, Question, must_have_a_value, search
 

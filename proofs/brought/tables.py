@@ -36,8 +36,7 @@ from ..quantities.many import Many
 from .direct_sums import direct_sums, sum_sizes
 from .drawn_cases import drawn
 from .kept import WORTH_SHARING
-from .known_cases import known_cases
-from .known_systems import ADVERSARY, CORPUS
+from .known_cases import ADVERSARY, CORPUS, known_cases
 from .trying import Undefined, must_have_a_value
 
 Place = tuple[int, int, int]  # the number of the sizes in the order of the box, of the stretch, of the system

@@ -5,6 +5,7 @@ delays                 these, and certificates of both delays of left inversion
 zeros                  these, and certificates of the finite and the infinite zeros
 spaces                 these, and certificates of the fault space at a window and in the limit
 gap_is_m_from          whether the gap is m from a bound on
+show_pair              certificates of a comparison of two systems, and of the window ranks of both
 identity               the outcome of a parametric claim at several dimensions
 """
 
@@ -16,8 +17,9 @@ from typing import Any
 from ...exact.parametric.stratification import Stratification, stratify
 from ...exact.structure.fault_columns import fault_space
 from ...exact.system.systems import ResidualSystem
+from ..evidence.alternatives import PairEvidence, comparison_certificate
 from ..evidence.corpus import Evidence
-from ..evidence.kept_kernels import kernel_once
+from ..evidence.subjects import kernel_once
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict
@@ -59,6 +61,14 @@ def spaces(window: Callable[[ResidualSystem], int]) -> Show:
         yield make.fault_space(kernel, fault_space(kernel))
 
     return show
+
+
+def show_pair(record: PairEvidence) -> Iterator[Certificate]:
+    """Yield certificates of whether the two systems have the same outputs, and of the window ranks of both."""
+    kernels = kernel_once(record.first), kernel_once(record.second)
+    yield comparison_certificate(*kernels)
+    yield make.window_ranks(kernels[0])
+    yield make.window_ranks(kernels[1])
 
 
 Dimensions = tuple[int, int, int]

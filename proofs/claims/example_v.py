@@ -8,8 +8,8 @@ from __future__ import annotations
 from ...exact.algebra.matrices import Matrix
 from ...exact.structure.fault_columns import fault_space
 from ..evidence.families import paper_example
-from ..evidence.kept_kernels import kernel_once
 from ..evidence.once_a_run import once_a_run
+from ..evidence.subjects import kernel_once
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict
@@ -52,7 +52,7 @@ def _outcome(holds: bool, words: str, *names: str) -> Outcome:
     return Outcome(Verdict.CERTIFIED if holds else Verdict.REFUTED, words, certificates)
 
 
-def one_fault(bench: Workbench) -> Outcome:
+def example_v_one_fault(bench: Workbench) -> Outcome:
     """The example is left-invertible, and its gap is 1 for every s >= lag."""
     says = _certificates()["ranks"]["statement"]
     indices, r = says["left_minimal_indices"], says["normal_rank"]
@@ -60,7 +60,7 @@ def one_fault(bench: Workbench) -> Outcome:
     return _outcome(says["normal_rank"] == 1 and says["window_ranks"] == [2, 4, 5, 6, 7, 8], words, "ranks", "inversion")
 
 
-def two_columns(bench: Workbench) -> Outcome:
+def example_v_two_columns(bench: Workbench) -> Outcome:
     """The example has n_z = 2 in the limit, which is reached at s = lag + 1."""
     found = _certificates()
     sizes = [len(found[f"space {s}"]["statement"]["basis"]) for s in range(1, 7)]
@@ -69,7 +69,7 @@ def two_columns(bench: Workbench) -> Outcome:
     return _outcome(len(basis) == 2 and sizes[2:] == [2, 2, 2, 2], words, "limit", "space 2", "space 3")
 
 
-def window_of_assumption_4(bench: Workbench) -> Outcome:
+def example_v_window_of_assumption_4(bench: Workbench) -> Outcome:
     """The example is claimed to have two columns already at s = max(l, n_x - 1)."""
     found = _certificates()
     s = max(found["known"]["statement"]["delay"], paper_example().residual.n - 1)
@@ -77,14 +77,14 @@ def window_of_assumption_4(bench: Workbench) -> Outcome:
     return _outcome(size == 2, f"at s = max(l, n_x - 1) = {s} problem (11) has {size} columns", f"space {s}", "known")
 
 
-def not_controllable(bench: Workbench) -> Outcome:
+def example_v_not_controllable(bench: Workbench) -> Outcome:
     """In the example (A, F) is not controllable, and (A, C) is observable."""
     found = _certificates()
     reach, observe = (found[name]["statement"]["rank"] for name in ("reachability", "observability"))
     return _outcome(reach < 3 and observe == 3, f"rank of [F AF A^2F] is {reach}, of O_3 it is {observe}", "reachability", "observability")
 
 
-def zeros_and_delays(bench: Workbench) -> Outcome:
+def example_v_zeros_and_delays(bench: Workbench) -> Outcome:
     """The example has one zero, at infinity; its lag is 2, and its delay is 1 whether the initial state is known or not."""
     found = _certificates()
     finite = len(found["finite"]["statement"]["invariant_zero_polynomial"]) - 1
@@ -95,13 +95,13 @@ def zeros_and_delays(bench: Workbench) -> Outcome:
     return _outcome((finite, orders, lag, delays) == (0, [1], 2, [1, 1]), words, "finite", "infinite", "known", "unknown")
 
 
-def seventh_singular_value(bench: Workbench) -> Outcome:
+def example_v_seventh_singular_value(bench: Workbench) -> Outcome:
     """The caption that the review quotes is read as a rank: the seventh singular value of R5 is negligible, so that rank R5 = 6."""
     r5, r6, words = _data_ranks()
     return _outcome(r5 == 6 and r6 == 7, words, "R5", "R6", "excitation 5", "excitation 6")
 
 
-def rank_difference(bench: Workbench) -> Outcome:
+def example_v_rank_difference(bench: Workbench) -> Outcome:
     """The review concludes, rightly, that rank R6 - rank R5 = 1."""
     r5, r6, words = _data_ranks()
     return _outcome(r6 - r5 == 1, words, "R5", "R6", "excitation 6")

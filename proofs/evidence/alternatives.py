@@ -29,9 +29,9 @@ from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
 from .exhaustive import all_systems, orbits
 from .families import adversarial, random_systems, shift_registers
-from .kept_kernels import kernel_once, space_once
 from .material import Material
 from .once_a_run import once_a_run
+from .subjects import kernel_once, space_once
 
 
 @dataclass(frozen=True)
@@ -168,12 +168,12 @@ def examine_alternative(origin: str, system: ResidualSystem, alternative: Residu
     )
 
 
-def _examined_pair(item: tuple[str, ResidualSystem, ResidualSystem, int]) -> list[PairEvidence]:
-    return [examine_pair(*item)]
+def _examined_pair(item: tuple[str, ResidualSystem, ResidualSystem, int]) -> PairEvidence:
+    return examine_pair(*item)
 
 
-def _examined_alternative(item: tuple[str, ResidualSystem, ResidualSystem, int]) -> list[AlternativeEvidence]:
-    return [examine_alternative(*item)]
+def _examined_alternative(item: tuple[str, ResidualSystem, ResidualSystem, int]) -> AlternativeEvidence:
+    return examine_alternative(*item)
 
 
 def _pairs(bench: Any) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, int]]:

@@ -117,21 +117,17 @@ class Trial:
     witness: Witness | None
     bracket: tuple[Point, Point] | None
 
-    @property
-    def refuted(self) -> bool:
-        """This says whether a counterexample is known, or proved to exist by a change of sign."""
-        return self.witness is not None or self.bracket is not None
-
 
 @dataclass(frozen=True)
 class Attacked:
     """A stored attack as a run shows it. `refutes`: its counterexample, or its change of sign, was confirmed now. `trouble`: it is
-    out of date, or what is stored was not found again; None otherwise."""
+    out of date, where it is `stale`, or what is stored was not found again; None otherwise."""
 
     id: str
     words: str
     refutes: bool
     trouble: str | None
+    stale: bool = False
 
     def to_json(self) -> dict[str, object]:
         """Return the object in `verify --json`."""

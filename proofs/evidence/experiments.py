@@ -18,6 +18,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
+from functools import partial
 from itertools import product
 from random import Random
 from typing import Any
@@ -35,7 +36,7 @@ from ...exact.system.windows import observability_matrix, reachability_matrix
 from ..trust.limit_certificates import certificates_of
 from ..trust.structure_certificates import accept
 from .material import Material
-from .seasonal_inputs import in_order, seasonal
+from .refuting_experiments import in_order, seasonal
 
 Rows = list[list[str]]
 
@@ -208,17 +209,13 @@ def _sources(bench: Any) -> list[tuple[str, int]]:
     return [(name, seed) for name in FAMILIES for seed in range(MORE.get(name, 1) * count)]
 
 
-def _examined(item: tuple[str, int]) -> list[LimitEvidence]:
+def _examined(item: tuple[str, int]) -> LimitEvidence:
     name, seed = item
-    return [examine_experiment(name, FAMILIES[name](Random(f"{name} {seed}")))]
+    return examine_experiment(name, FAMILIES[name](Random(f"{name} {seed}")))
 
 
 def _nilpotent(bench: Any) -> Iterator[Experiment]:
     return nilpotent_points(3 if bench.full else 2)
-
-
-def _at_nilpotent(experiment: Experiment) -> list[LimitEvidence]:
-    return [examine_experiment("at a nilpotent A, for one u, n and s each", experiment)]
 
 
 def _controllable(A: Matrix, B: Matrix) -> bool:
@@ -339,14 +336,6 @@ def _white_leads(random: Random) -> Experiment:
     return leading(_system(random, 1, 1), ["1"], ["1"], phi, random.choice((1, None, None)))
 
 
-def _simultaneous(random: Random) -> Experiment:
-    return leading(_system(random, 1, 1), ["1"], ["1"], ["1"])
-
-
-def _moving_average(random: Random) -> Experiment:
-    return leading(_system(random, 1, 1), ["1", "1/2"], ["1"], ["0"] * random.randint(1, 2) + ["1"])
-
-
 def _lead_one(random: Random) -> Experiment:
     system = _system(random, 1, 1)
     system["G"] = [["0"] for _ in system["C"]]
@@ -369,10 +358,6 @@ def independent_white(system: dict[str, Any]) -> Experiment:
     return experiment_of(system, [[["1", "0"]]], [[["0", "1"]]])
 
 
-def _feedback(random: Random) -> Experiment:
-    return following(_system(random, 1, 1), random.choice(("1", "-1", "2")))
-
-
 def _feedback_hidden(random: Random) -> Experiment:
     """With F K = A z and G K = C z the fault moves the state by z one sample earlier, and adds no column to those of O_s."""
     system = _system(random, 1, 1)
@@ -389,24 +374,20 @@ def _feedback_unseen_in_inputs(random: Random) -> Experiment:
     return following({"A": [[str(a)]], "B": [[str(b)]], "C": [["1"]], "D": [["0"]], "F": [[str(f)]], "G": [[str(g)]]}, "1")
 
 
-def _white_fault(random: Random) -> Experiment:
-    return independent_white(_system(random, 1, 1))
-
-
 FAMILIES: dict[str, Callable[[Random], Experiment]] = {
     Drawn.INDEPENDENT: _independent,
     Drawn.INDEPENDENT_AUTOREGRESSIVE: _independent_autoregressive,
     Drawn.DEGENERATE: _degenerate,
     Drawn.PERIODIC: _period,
     Drawn.WHITE_LED: _white_leads,
-    Drawn.SIMULTANEOUS: _simultaneous,
-    Drawn.MOVING_AVERAGE_LED: _moving_average,
+    Drawn.SIMULTANEOUS: lambda random: leading(_system(random, 1, 1), ["1"], ["1"], ["1"]),
+    Drawn.MOVING_AVERAGE_LED: lambda random: leading(_system(random, 1, 1), ["1", "1/2"], ["1"], ["0"] * random.randint(1, 2) + ["1"]),
     Drawn.LEAD_ONE: _lead_one,
     Drawn.AUTOREGRESSIVE_LED: _autoregressive,
-    Drawn.FEEDBACK: _feedback,
+    Drawn.FEEDBACK: lambda random: following(_system(random, 1, 1), random.choice(("1", "-1", "2"))),
     Drawn.FEEDBACK_HIDDEN: _feedback_hidden,
     Drawn.FEEDBACK_UNSEEN_IN_INPUTS: _feedback_unseen_in_inputs,
-    Drawn.INDEPENDENT_WHITE: _white_fault,
+    Drawn.INDEPENDENT_WHITE: lambda random: independent_white(_system(random, 1, 1)),
 }
 
 
@@ -456,4 +437,5 @@ def _columns(values: Sequence[str], p: int) -> Iterator[tuple[str, ...]]:
 
 
 LIMITS = Material("limits", "population limits", _sources, _examined, 10)
-NILPOTENT = Material("limits at nilpotent A", "population limits at nilpotent A", _nilpotent, _at_nilpotent, 1)
+AT_NILPOTENT = partial(examine_experiment, "at a nilpotent A, for one u, n and s each")
+NILPOTENT = Material("limits at nilpotent A", "population limits at nilpotent A", _nilpotent, AT_NILPOTENT, 1)

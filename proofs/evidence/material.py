@@ -26,14 +26,15 @@ from .once_a_run import in_run
 class Material:
     """A kind of certified material, with `stage` as the words of its progress.
 
-    `items(bench)` are what it is made of, which may be other material, and `make(item)` is what comes of one. Both are functions of a
-    module, as they go to other processes. A task has `together` items: they share what is kept about a system that stands in many.
+    `items(bench)` are what it is made of, which may be other material, and `make(item)` is what comes of one, a list where that may be
+    several. Both are functions of a module, as they go to other processes. A task has `together` items: they share what is kept about a
+    system that stands in many.
     """
 
     name: str
     stage: str
     items: Callable[[Any], Iterable[Any]]
-    make: Callable[[Any], list[Any]]
+    make: Callable[[Any], Any]
     together: int
 
 
@@ -149,7 +150,7 @@ class Carried:
 Shelf = Folder | Carried
 
 
-def _made_of(run: str, makes: Sequence[Callable[[Any], list[Any]]], batch: Sequence[Any]) -> bytes:
+def _made_of(run: str, makes: Sequence[Callable[[Any], Any]], batch: Sequence[Any]) -> bytes:
     in_run(run)
     return _in_bytes([_made_one_way(make, batch) for make in makes])
 
@@ -158,8 +159,9 @@ def _in_bytes(found: object) -> bytes:
     return pickle.dumps(found, pickle.HIGHEST_PROTOCOL)
 
 
-def _made_one_way(make: Callable[[Any], list[Any]], batch: Sequence[Any]) -> list[Any] | Exception:
+def _made_one_way(make: Callable[[Any], Any], batch: Sequence[Any]) -> list[Any] | Exception:
     try:
-        return [one for item in batch for one in make(item)]
+        found = [make(item) for item in batch]
+        return [one for made in found for one in (made if isinstance(made, list) else [made])]
     except Exception as error:  # whatever it is, what rests on this kind did not finish, and the rest goes on
         return error

@@ -28,9 +28,9 @@ from ..trust.structure_certificates import accept
 from .alternatives import compared, fault_space_basis, ranked
 from .exhaustive import orbits
 from .families import adversarial, random_systems
-from .kept_kernels import kernel_once
 from .material import Material
 from .once_a_run import once_a_run
+from .subjects import kernel_once
 
 MOST_STATES = 3
 

@@ -1,15 +1,19 @@
-"""This is one exact system with everything that quantities ask of it, found when it is first asked for.
+"""One exact system with everything that quantities ask of it, found when it is first asked for, and kernel representations found once.
 
 Subject      the system, with kernel representations of it and of its relatives
 kernel       that of the system: left minimal indices, ranks of [O_s T_s]
 dual         that of the transposed system (A', C', F', G'): right minimal indices
 silent       that of (A, C) without faults: ranks of O_s
 reached      that of (A', F') without faults: ranks of [F, AF, ...]
+kernel_once  what `kernel_representation` returns, kept for the systems that were asked for last
+space_once   its fault space, the limit of problem (11), likewise
+
+Certificates, hypotheses, ablations and searches come to the same small systems; a kernel representation takes a few kilobytes.
 """
 
 from __future__ import annotations
 
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 from ...exact.algebra.matrices import Matrix
 from ...exact.algebra.polynomials import Poly
@@ -19,7 +23,6 @@ from ...exact.structure.kernel_rows import KernelRepresentation, kernel_represen
 from ...exact.structure.pencil import infinite_zero_orders, invariant_zero_polynomial
 from ...exact.structure.zero_output import chain_from_rest
 from ...exact.system.systems import ResidualSystem
-from .kept_kernels import kernel_once
 
 
 class Subject:
@@ -93,3 +96,18 @@ class Subject:
 def without_faults(system: ResidualSystem) -> ResidualSystem:
     """Return (A, C) as a system with no fault."""
     return system.with_faults(Matrix.zero(system.field, system.n, 0), Matrix.zero(system.field, system.p, 0))
+
+
+MOST_KEPT = 1 << 13
+
+
+@lru_cache(maxsize=MOST_KEPT)
+def kernel_once(system: ResidualSystem) -> KernelRepresentation:
+    """Return the kernel representation of a system. Raises what `kernel_representation` raises."""
+    return kernel_representation(system)
+
+
+@lru_cache(maxsize=MOST_KEPT)
+def space_once(system: ResidualSystem) -> FaultSpace:
+    """Return the limit of problem (11) of a system. Raises what `kernel_representation` raises."""
+    return fault_space(kernel_once(system))

@@ -24,7 +24,7 @@ from ...exact.algebra.matrices import Matrix, beside, rank, right_null_space, so
 from ...exact.structure.fault_columns import with_pair
 from ...exact.structure.kernel_rows import column_conditions
 from ...exact.system.systems import ResidualSystem
-from ..evidence.kept_kernels import kernel_once, space_once
+from ..evidence.subjects import kernel_once, space_once
 
 
 @lru_cache(maxsize=1 << 13)  # here and below: the same pairs are come upon for each hypothesis that is dropped

@@ -12,13 +12,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
+from operator import attrgetter
 
 from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix
 from ...exact.limits.experiments import Experiment
 from ...exact.limits.moesp import limit
 from ...exact.system.systems import ResidualSystem
-from ..claims.proposition_1 import show_words
+from ..claims.experiments import show_words
 from ..evidence.experiments import LIMITS, LimitEvidence, examine_experiment, first_look
 from ..evidence.material import Material
 from ..trust import structure_certificates as make
@@ -122,31 +123,23 @@ def _subjects(bench: Workbench) -> Iterator[Driven]:
     yield from bench.material(AIMED)
 
 
-def _limits(bench: Workbench) -> Sequence[LimitEvidence]:
-    return bench.limits
-
-
-def _driven(record: LimitEvidence) -> list[Driven]:
-    return [driven(record)]
-
-
 def _aimed(bench: Workbench) -> Iterator[Experiment]:
     return aimed_experiments(400 if bench.full else 8)
 
 
-def _examined_aimed(experiment: Experiment) -> list[Driven]:
-    return [driven(examine_experiment("aimed", experiment))]
+def _examined_aimed(experiment: Experiment) -> Driven:
+    return driven(examine_experiment("aimed", experiment))
 
 
 def _small(bench: Workbench) -> Iterator[Experiment]:
     return small_experiments()
 
 
-def _looked_at(experiment: Experiment) -> list[Driven]:
-    return [driven(first_look(experiment))]
+def _looked_at(experiment: Experiment) -> Driven:
+    return driven(first_look(experiment))
 
 
-DRIVEN = Material("driven", "reading population limits", _limits, _driven, 20)
+DRIVEN = Material("driven", "reading population limits", attrgetter("limits"), driven, 20)
 AIMED = Material("aimed experiments", "population limits, aimed", _aimed, _examined_aimed, 10)
 SMALL = Material("small experiments", "a first look at small experiments", _small, _looked_at, 10)
 

@@ -16,14 +16,13 @@ from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.system.systems import ResidualSystem
 from ..boxes.box import Box, in_order, matrices_in_order
 from ..evidence.alternatives import ALTERNATIVES, AlternativeEvidence, comparison_certificate, examine_alternative
-from ..evidence.kept_kernels import kernel_once, space_once
 from ..evidence.material import Material
+from ..evidence.subjects import kernel_once, space_once
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench, size
-from .aimed import aimed_systems
-from .facets import degenerate, expressions, facets, of_system
+from .facets import aimed_systems, degenerate, expressions, facets, of_system
 
 BOX = Box(n=(1, 1), m=(1, 2), p=(1, 2), total=5)
 

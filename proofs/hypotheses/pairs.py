@@ -19,15 +19,14 @@ from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import window_matrix
 from ..boxes.box import Box, grouped
 from ..evidence.alternatives import ALTERNATIVES, PAIRS, PairEvidence, comparison_certificate, examine_pair
-from ..evidence.kept_kernels import kernel_once, space_once
 from ..evidence.material import Material
+from ..evidence.subjects import kernel_once, space_once
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench
-from .aimed import aimed_systems, other_columns
 from .changes_of_state import columns_moved, equivalent_pairs, moved, similarity
-from .facets import degenerate, expressions, facets
+from .facets import aimed_systems, degenerate, expressions, facets, other_columns
 
 BOX = Box(n=(1, 2), m=(1, 2), p=(1, 2), total=5)
 SMALLER = Box(n=(1, 1), m=(1, 2), p=(1, 2), total=4)

@@ -7,6 +7,8 @@ placement           every polynomial of degree at most zeta is the zero polynomi
 determinant         D(q; P) is the zero polynomial of the pair
 zeros_of_pair       a pair has as many zeros as its system
 
+wanted              polynomials of every degree up to zeta: random, with a zero constant term, with one repeated root, not monic
+
 The size of the bad set is counted from the degrees of L(q) by exact/pairs, which certificates of lines confirm in the claim itself.
 """
 
@@ -16,28 +18,31 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from random import Random
+from typing import Any
 
+from ...base.errors import InvalidInput
+from ...exact.algebra.fields import PrimeField
 from ...exact.algebra.matrices import Matrix, rank
+from ...exact.algebra.polynomials import Poly, monic, multiply, trimmed
+from ...exact.pairs.assignment import assign_zeros
 from ...exact.pairs.bad_variety import bad_set
-from ...exact.pairs.polynomial import polynomial_at
+from ...exact.pairs.polynomial import Exceptional, polynomial_at
 from ...exact.pairs.witnesses import BadPair, bad_pair
 from ...exact.structure.fault_columns import with_pair
-from ...exact.structure.pencil import infinite_zero_orders
+from ...exact.structure.pencil import infinite_zero_orders, invariant_zero_polynomial
 from ...exact.system.systems import ResidualSystem
 from ..boxes.box import Box, in_order, matrices_in_order
-from ..claims.one_determinant import agrees
-from ..claims.one_determinant import show as show_pair
+from ..claims.pairs import agrees
+from ..claims.pairs import show as show_pair
 from ..evidence.alternatives import comparison_certificate
-from ..evidence.kept_kernels import kernel_once
 from ..evidence.material import Material
 from ..evidence.pairs_by_polynomial import PAIRS_BY_POLYNOMIAL, PairByPolynomial, examine_by_polynomial, pencil_of
+from ..evidence.subjects import kernel_once
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench, size
-from .aimed import aimed_systems
-from .facets import degenerate, expressions, of_system
-from .given_zeros import every_polynomial_is_reached
+from .facets import aimed_systems, degenerate, expressions, of_system
 from .systems import MODEL
 from .windowed import NO_WINDOW, Condition, Windowed, says, windowed
 
@@ -237,3 +242,44 @@ def _smallest_pair(hypotheses: Mapping[str, Callable[[Chosen], bool]], bench: Wo
                         yield subject
 
     return first_found(counterexamples, f"{BOX}, entries of P in {{-1, 0, 1}}")
+
+
+def every_polynomial_is_reached(pencil: Exceptional) -> bool:
+    """Return whether each has a P whose D(q; P) it is up to a unit; of the last the pair's own zeros are asked as well, by another route.
+
+    A polynomial that `assign_zeros` refuses is not reached by any P: the unobservable modes are zeros of every pair.
+    """
+    last: tuple[Poly, Any] | None = None
+    for polynomial in wanted(pencil):
+        try:
+            assignment = assign_zeros(pencil, [pencil.system.field.write(x) for x in polynomial])
+        except InvalidInput:
+            return False
+        if monic(polynomial_at(pencil, assignment.P)) != monic(polynomial):
+            return False
+        last = polynomial, assignment.system
+    if last is None:
+        return True
+    polynomial, pair = last
+    return monic(invariant_zero_polynomial(kernel_once(pair), len(polynomial) - 1)) == monic(polynomial)
+
+
+def wanted(pencil: Exceptional) -> Iterator[Poly]:
+    """Yield the polynomials: a nonzero constant, a random one of each degree up to zeta, q^zeta, (q - c)^zeta and c q^zeta + ... + 1."""
+    field, zeta, random = pencil.system.field, pencil.zeta, Random(str(pencil.system))
+    size = min(field.p, 7) if isinstance(field, PrimeField) else 7
+
+    def number(*, nonzero: bool = False) -> Any:
+        return field.element(random.randint(1, size - 1) if nonzero else random.randint(0, size - 1) - (0 if size < 7 else 3))
+
+    one, zero = field.element(1), field.element(0)
+    for degree in range(zeta + 1):
+        yield trimmed([*(number() for _ in range(degree)), number(nonzero=True)])
+    if zeta:
+        yield trimmed([zero] * zeta + [one])
+        repeated = trimmed([one])
+        root = number(nonzero=True)
+        for _ in range(zeta):
+            repeated = multiply(repeated, trimmed([-root, one]))
+        yield trimmed([one, *[zero] * (zeta - 1), number(nonzero=True)])
+        yield repeated

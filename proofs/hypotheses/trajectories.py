@@ -25,8 +25,7 @@ from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
 from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench, size
-from .aimed import aimed_systems
-from .facets import POOR, degenerate, expressions, facets, of_system
+from .facets import POOR, aimed_systems, degenerate, expressions, facets, of_system
 
 BOX = Box(n=(1, 2), m=(1, 2), p=(1, 2), total=5)
 

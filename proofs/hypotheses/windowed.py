@@ -23,8 +23,7 @@ from ..quantities.batches import Batch
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Show, Workbench, size
-from .aimed import AIMED
-from .facets import MODEL, POOR, degenerate, facets
+from .facets import AIMED, MODEL, POOR, degenerate, facets
 
 BOX = Box(n=(1, 2), m=(1, 2), p=(1, 2), total=5)
 

@@ -1,13 +1,27 @@
-"""These are the normal rank and the minimal indices of the pencil P(q) = [[qI - A, -F], [C, G]]. Source: [F75], [K80] 6.3, [W91]."""
+"""The sizes n, m, p, the normal rank and the minimal indices of the pencil P(q) = [[qI - A, -F], [C, G]].
+
+Source: [F75], [K80] 6.3, [W91].
+"""
 
 from __future__ import annotations
+
+from operator import attrgetter
 
 from ..evidence import certified
 from ..evidence import questions as ask
 from .ranks import OBSERVED, REACHED
 from .registry import Kind, Quantity, Told
 
+
+def _size(name: str, meaning: str) -> Quantity:
+    of = attrgetter(f"system.{name}")
+    return Quantity(name, Kind.INTEGER, meaning, of, attrgetter(name), certified.read, told=Told((), of))
+
+
 QUANTITIES = (
+    _size("n", "the number of states"),
+    _size("m", "the number of faults (unknown inputs)"),
+    _size("p", "the number of outputs"),
     Quantity(
         "normal_rank",
         Kind.INTEGER,

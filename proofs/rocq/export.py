@@ -6,7 +6,7 @@
     written      a file with the theorems about the concrete systems, proved by computation
 
 No string of a certificate reaches the file. Every number goes through the checker's own parser (`checker.rational`, `checker.index`) to an
-integer of Python, and what writes integers (`text.py`) takes nothing else. The checker's meter bounds the work.
+integer of Python, and what writes integers (`terms.py`) takes nothing else. The checker's meter bounds the work.
 
 Here are the kinds over Q; those over GF(p) and Q(a) are in export_fields.py. Systems are written with transposed matrices (signals
 are rows in the theory), as integers over one common denominator. Two things in the terms are not in the certificate: words whose outputs
@@ -29,8 +29,7 @@ from .export_fields import FIELD_KINDS, finite_zeros, infinite_zeros
 from .export_limits import LIMIT_KINDS, schur_stable
 from .export_lines import left_invertible_line
 from .listed import Integers, Listed, NotCovered, added, independent, times, unit
-from .terms import AT_FIRST, Terms, determines, index, indices, window_of
-from .text import call, natural, naturals, pivoted, sequence, table, vector, whole
+from .terms import AT_FIRST, Terms, call, determines, index, indices, natural, naturals, pivoted, sequence, table, vector, whole, window_of
 
 Json = Any
 Kernel = list[tuple[int, Integers]]

@@ -21,8 +21,7 @@ from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..trust import checker, checker_structure
 from .numbered import Numbered, Numbers, Row, Rows, independent, inverse_at, transposed
-from .terms import AT_FIRST, Terms, determines, index, indices, window_of
-from .text import call, natural, naturals, sequence
+from .terms import AT_FIRST, Terms, call, determines, index, indices, natural, naturals, sequence, window_of
 
 Json = Any
 Kernel = list[tuple[int, Rows]]

@@ -25,8 +25,7 @@ from ...exact.limits.lyapunov import stein
 from ...exact.system.modular import reduce_matrix
 from ..trust import checker, checker_limits
 from .numbered import Numbered, Numbers, independent
-from .terms import Terms, index
-from .text import call, natural, sequence, vector
+from .terms import Terms, call, index, natural, sequence, vector
 
 Json = Any
 COMPLEX = "forall (C : numClosedFieldType) (embed : {rmorphism K -> C}),"

@@ -23,8 +23,7 @@ from ...exact.algebra.polynomials import Poly, PolyMatrix, add, divide, multiply
 from ..trust import checker, checker_structure
 from .export_fields import named, system_of, terms_over
 from .numbered import Numbered, Numbers, Rows, independent
-from .terms import Terms, index, indices
-from .text import call, sequence
+from .terms import Terms, call, index, indices, sequence
 
 Json = Any
 

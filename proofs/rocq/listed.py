@@ -18,7 +18,7 @@ from typing import Any
 from flint import nmod_mat
 
 from ..trust import checker
-from .text import natural, naturals, sequence, table, vector, whole
+from .terms import natural, naturals, sequence, table, vector, whole
 
 Json = Any
 Integers = list[list[int]]

@@ -25,7 +25,7 @@ from ...exact.algebra.fields import NumberField, PrimeField
 from ...exact.algebra.matrices import Matrix, beside, row_echelon
 from ..trust import checker
 from .listed import NotCovered
-from .text import natural, sequence, whole
+from .terms import natural, sequence, whole
 
 Json = Any
 Row = list[Any]

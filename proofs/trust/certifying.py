@@ -105,18 +105,44 @@ OF_LIMITS = ("input-limit", "moesp-limit")
 def certify(subject: System | Experiment | Mapping[str, Any], kind: str, **options: Any) -> Certificate:
     """Make the certificate of this kind about a system: a statement with a witness, as a JSON-ready dict that `check` can decide.
 
-    `subject` is an exact system (its inputs play no part), or, for "moesp-limit" and "input-limit", an Experiment or the dict of an
-    experiment's file. Some kinds take options: `other`, a second system, for "behaviour-difference", "behaviour-equality",
-    "behaviour-inclusion", "left-invertible-line" and "window-equality"; `window`, a number of samples, for "window-equality", "fault-space"
-    (none: the limit), "first-column-only" and "matrix-rank"; `column`, the n + p entries of [f; g], for "first-column-only"; `matrix`, one
-    of "observability", "reachability", "toeplitz" and "window", for "matrix-rank"; `initial_state`, "known" or "unknown", for
-    "inversion-delay"; `instruments`, "past-inputs" or "past-inputs-and-outputs", for "moesp-limit"; `regression`, "true-AC" or "moesp",
-    for "input-limit". The kinds "finite-zeros", "infinite-zeros", "left-invertible",
-    "not-left-invertible", "schur-stable" and "window-ranks" take none. What each states is written in proofs/trust/FORMAT.md.
+    What each kind states is written in proofs/trust/FORMAT.md. The kinds "finite-zeros", "infinite-zeros", "left-invertible",
+    "not-left-invertible", "schur-stable" and "window-ranks" take no options.
 
-    Raises InvalidInput for an unknown kind (the message names the kinds), for options that do not go with it and for a subject of the wrong
-    type, and `faultspace.proofs.Unprovable` where the statement is not true.
+    Parameters
+    ----------
+    subject : System, Experiment or dict
+        An exact system, whose inputs play no part; for "moesp-limit" and "input-limit" an Experiment or the dict of an experiment's file.
+    kind : str
+    other : System, optional
+        A second system, for "behaviour-difference", "behaviour-equality", "behaviour-inclusion", "left-invertible-line" and
+        "window-equality".
+    window : int, optional
+        A number of samples, for "window-equality", "fault-space" (none: the limit), "first-column-only" and "matrix-rank".
+    column : list, optional
+        The n + p entries of [f; g], for "first-column-only".
+    matrix : {"observability", "reachability", "toeplitz", "window"}, optional
+        For "matrix-rank".
+    initial_state : {"known", "unknown"}, optional
+        For "inversion-delay".
+    instruments : {"past-inputs", "past-inputs-and-outputs"}, optional
+        For "moesp-limit".
+    regression : {"true-AC", "moesp"}, optional
+        For "input-limit".
 
+    Returns
+    -------
+    dict
+        With "format", "kind", "statement" and "witness".
+
+    Raises
+    ------
+    InvalidInput
+        For an unknown kind (the message names the kinds), options that do not go with it and a subject of the wrong type.
+    Unprovable
+        Where the statement is not true.
+
+    Examples
+    --------
     >>> import faultspace as fs
     >>> system = fs.System(A=[["1/2"]], F=[[1]], C=[[1]], G=[[0]])
     >>> certificate = fs.certify(system, "inversion-delay", initial_state="known")

@@ -19,12 +19,12 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from itertools import combinations
-from typing import Generic, Protocol, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
 from ..trust.structure_certificates import Certificate
-from .verdicts import Row, Verdict
+from .verdicts import Outcome, Row, Verdict
 from .workbench import Workbench, accepted
 
 
@@ -82,6 +82,11 @@ class Ablation(Generic[S]):
     def violated(self, subject: S) -> frozenset[str]:
         """Return the hypotheses that the subject does not meet."""
         return frozenset(name for name, meets in self.hypotheses.items() if not meets(subject))
+
+    def row(self, dropped: tuple[str, ...], found: Outcome, **more: Any) -> Row:
+        """Return the row of an outcome, without these hypotheses."""
+        outcome = {one.name: getattr(found, one.name) for one in fields(Outcome)}
+        return Row(**outcome, ablation=self.name, claim=self.claim, conclusion=self.conclusion, dropped=dropped, **more)
 
     def theorems_without(self, dropped: Sequence[str]) -> tuple[str, ...]:
         """Return the theorems that prove the conclusion without these hypotheses; none where the proof uses one of them."""
@@ -147,8 +152,7 @@ def ablate(bench: Workbench, ablation: Ablation[S], expected: Mapping[str, str])
     if flawed:
         subject = min(flawed.values(), key=_order)
         words = f"nothing is dropped, and the conclusion fails on {subject}"
-        certificates = accepted(ablation.show(subject))
-        return (Row(ablation.name, ablation.claim, ablation.conclusion, (), Verdict.ERROR, words, None, certificates, subject.accepted),)
+        return (ablation.row((), Outcome(Verdict.ERROR, words, accepted(ablation.show(subject)), subject.accepted)),)
     names = list(ablation.hypotheses)
     alone = [_without(bench, ablation, tally, (name,), expected.get(name)) for name in names]
     refuted = {row.dropped[0]: row for row in alone if row.verdict == Verdict.REFUTED}
@@ -159,9 +163,8 @@ def ablate(bench: Workbench, ablation: Ablation[S], expected: Mapping[str, str])
             rows.append(_without(bench, ablation, tally, two, None))
         else:
             row, count = refuted[already], tally.count(frozenset(two))
-            words = f"it falls without {already} alone"
-            made = (ablation.name, ablation.claim, ablation.conclusion, two, Verdict.REFUTED, words, already)
-            rows.append(Row(*made, row.certificates, row.decided, tried=count.tried, lacking=count.lacking))
+            found = replace(row, evidence=f"it falls without {already} alone")
+            rows.append(ablation.row(two, found, already=already, tried=count.tried, lacking=count.lacking))
     return tuple(rows)
 
 
@@ -188,11 +191,10 @@ def _without(bench: Workbench, ablation: Ablation[S], tally: _Tally[S], dropped:
     count = tally.count(frozenset(dropped))
     reason = ablation.implied.get(dropped[0]) if len(dropped) == 1 else None
 
-    def row(verdict: Verdict, words: str, certificates: tuple[Certificate, ...], decided: frozenset[str] = frozenset()) -> Row:
-        return Row(
-            ablation.name, ablation.claim, ablation.conclusion, dropped, verdict, words, None, certificates, decided,
-            ledger=expected, theorems=ablation.theorems_without(dropped), tried=count.tried, lacking=count.lacking, implied=reason,
-        )  # fmt: skip
+    def row(verdict: Verdict, words: str, certificates: tuple[Certificate, ...] = (), decided: frozenset[str] = frozenset()) -> Row:
+        found = Outcome(verdict, words, certificates, decided)
+        theorems = ablation.theorems_without(dropped)
+        return ablation.row(dropped, found, ledger=expected, theorems=theorems, tried=count.tried, lacking=count.lacking, implied=reason)
 
     if elsewhere:
         subject, where = _witness(bench, ablation, dropped, elsewhere)
@@ -204,7 +206,7 @@ def _without(bench: Workbench, ablation: Ablation[S], tally: _Tally[S], dropped:
             return row(Verdict.ERROR, words, certificates)
         return row(Verdict.REFUTED, words, certificates)
     if not count.tried:
-        return row(Verdict.ERROR, "no subject that was tried meets the others", ())
+        return row(Verdict.ERROR, "no subject that was tried meets the others")
     if reason is not None and count.lacking:
         words = f"{count.lacking} of the {count.tried} subjects that meet the others lack it, although it is said to follow: {reason}"
         return row(Verdict.ERROR, words, (), count.accepted)

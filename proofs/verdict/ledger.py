@@ -34,7 +34,7 @@ class Reading(Shown):
     sharpens the words, or takes them too far, and is no way to read them.
     `theorems` of theory/headlines say it for all systems; of a refuted reading they are its counterexample. `missing`: what a
     proof for all systems lacks, where the reading holds and has none. `part` names the part of the claim that it reads, if any. `check` is
-    the function in claims/ that decides it, as "file.function", or "language.NAME" where a text of the language of claims does. The
+    the function in claims/ that decides it, as "claim.reading", or "language.NAME" where a text of the language of claims does. The
     statements are those of [G25] and of its review, or ours.
 
     Raises nothing.

@@ -88,6 +88,11 @@ class Outcome:
         """The number of distinct certificates that the checker accepted for it."""
         return len(self.all_decided)
 
+    @property
+    def named(self) -> list[dict[str, str]]:
+        """Its headline certificates, by kind and SHA-256."""
+        return [{"kind": c["kind"], "sha256": sha256(c)} for c in self.certificates]
+
 
 @dataclass(frozen=True, repr=False)
 class ReadingResult(Shown):
@@ -136,7 +141,7 @@ class ReadingResult(Shown):
             "missing_for_a_proof": self.reading.missing or None,
             "evidence": self.outcome.evidence,
             "certificates_accepted": self.outcome.accepted,
-            "certificates": [{"kind": c["kind"], "sha256": sha256(c)} for c in self.outcome.certificates],
+            "certificates": self.outcome.named,
             "attacks": [attack.to_json() for attack in self.attacks],
             "seconds": round(self.seconds, 3),
         }
@@ -215,9 +220,9 @@ def of_readings(readings: Sequence[tuple[Reading, Verdict]], *, in_parts: bool) 
     return max(standing, key=list(Verdict).index) if standing else Verdict.REFUTED
 
 
-@dataclass(frozen=True)
-class Row:
-    """The claim without the hypotheses `dropped`. `already` names a single one of them without which it falls already.
+@dataclass(frozen=True, kw_only=True)
+class Row(Outcome):
+    """The outcome of the claim without the hypotheses `dropped`. `already` names a single one of them without which it falls already.
 
     `theorems` prove it without them, and `machine_checked` says that Rocq has checked these in the run. Of the `tried` subjects that meet
     the other hypotheses, `lacking` violate one of the dropped. `implied`: why a dropped one follows from the others; None where it does
@@ -229,11 +234,7 @@ class Row:
     claim: str
     conclusion: str
     dropped: tuple[str, ...]
-    verdict: Verdict
-    evidence: str
-    already: str | None
-    certificates: tuple[Certificate, ...]
-    decided: frozenset[str] = frozenset()
+    already: str | None = None
     ledger: str | None = None
     theorems: tuple[str, ...] = ()
     machine_checked: bool = False
@@ -241,16 +242,6 @@ class Row:
     lacking: int | None = None
     implied: str | None = None
     attacks: tuple[Attacked, ...] = ()
-
-    @property
-    def all_decided(self) -> frozenset[str]:
-        """All certificates that the checker accepted for it, headline or not, by their SHA-256."""
-        return self.decided | {sha256(certificate) for certificate in self.certificates}
-
-    @property
-    def accepted(self) -> int:
-        """The number of distinct certificates that the checker accepted for it."""
-        return len(self.all_decided)
 
     @property
     def expected(self) -> str | None:
@@ -296,7 +287,7 @@ class Row:
             "lacking": self.lacking,
             "evidence": self.evidence,
             "certificates_accepted": self.accepted,
-            "certificates": [{"kind": c["kind"], "sha256": sha256(c)} for c in self.certificates],
+            "certificates": self.named,
             "attacks": [attack.to_json() for attack in self.attacks],
         }
 

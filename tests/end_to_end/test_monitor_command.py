@@ -213,10 +213,10 @@ def test_standard_input_that_is_closed_or_of_one_line(plant: Path) -> None:
         line = f"{sys.executable} -m faultspace {words} <&-"
         run = subprocess.run(line, shell=True, capture_output=True, cwd=ROOT, env=environment(), text=True)
         assert run.returncode == 2 and "standard input: is closed" in run.stderr and run.stderr.count("\n") == 1
-    endless = "import sys, resource, faultspace.cli.monitoring; from faultspace.cli.command_line import main; "
-    endless += "now = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize(); "
-    endless += "resource.setrlimit(resource.RLIMIT_AS, (now + (256 << 20),) * 2); sys.exit(main(['monitor', sys.argv[1]]))"
-    source = "import os\nfor _ in range(100): os.write(1, b'7' * (1 << 22))"
+    endless = "import sys, resource; from faultspace.cli import monitoring; from faultspace.cli.command_line import main; "
+    endless += "held = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize(); "
+    endless += "resource.setrlimit(resource.RLIMIT_AS, (held + (1 << 28),) * 2); sys.exit(main(['monitor', sys.argv[1]]))"
+    source = "import os\nfor _ in range(128): os.write(1, b'7' * (1 << 22))"  # twice of what there is room for
     line = f'{sys.executable} -c "{source}" | {sys.executable} -c "{endless}" {plant}/watch.json'
     run = subprocess.run(line, shell=True, capture_output=True, cwd=ROOT, env=environment(), text=True)
     assert run.returncode == 0 and "the last line has no end, and is no sample" in run.stderr

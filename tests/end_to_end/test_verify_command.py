@@ -15,6 +15,7 @@ import sys
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -40,10 +41,11 @@ CLAIMS = (
 CERTIFICATE = window_ranks(kernel_representation(read_system(example("paper")).residual))
 SHORT = sha256(CERTIFICATE)[:12]
 A, FIVE = frozenset("a"), frozenset("abcde")  # certificates that were decided
+TOY = partial(Row, ablation="toy", claim="claim-a", conclusion="the rank is right")
 ROWS = (
-    Row("toy", "claim-a", "the rank is right", ("s >= n",), Verdict.REFUTED, "A=[[0]]", None, (CERTIFICATE,), A, "REFUTED"),
-    Row("toy", "claim-a", "the rank is right", ("observable",), Verdict.CERTIFIED, "all 12 tried", None, (), FIVE, "CERTIFIED"),
-    Row("toy", "claim-a", "the rank is right", ("s >= n", "observable"), Verdict.REFUTED, "already", "s >= n", (CERTIFICATE,), A),
+    TOY(Verdict.REFUTED, "A=[[0]]", (CERTIFICATE,), A, dropped=("s >= n",), ledger="REFUTED"),
+    TOY(Verdict.CERTIFIED, "all 12 tried", (), FIVE, dropped=("observable",), ledger="CERTIFIED"),
+    TOY(Verdict.REFUTED, "already", (CERTIFICATE,), A, dropped=("s >= n", "observable"), already="s >= n"),
 )
 
 

@@ -16,7 +16,7 @@ from faultspace.exact.limits import autoregression
 from faultspace.exact.limits.lyapunov import solve
 from faultspace.exact.limits.moesp import markov_parameters
 from faultspace.exact.limits.moments import covariances
-from faultspace.proofs.evidence.kept_experiments import kept
+from faultspace.proofs.evidence.refuting_experiments import kept
 
 HIDDEN = [
     "integer-taps",

@@ -1,4 +1,8 @@
-"""What makes a release refuses a step that ends or prints otherwise than it has to, and its archive depends on what it holds alone."""
+"""What makes a release refuses a step that ends or prints otherwise than it has to, and its archive depends on what it holds alone.
+
+The page of the versions that were tried says so where the script that makes it has since been given more to try. The wheel holds what git
+holds of the package, no file less and none more.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +12,8 @@ import shutil
 import subprocess
 import sys
 import tomllib
-from pathlib import Path
+import zipfile
+from pathlib import Path, PurePosixPath
 from types import ModuleType
 
 import pytest
@@ -93,3 +98,63 @@ def test_the_package_of_the_theory_builds_every_file(tmp_path: Path) -> None:
     subprocess.run(["sh", "-c", lines[0]], cwd=tmp_path / "theory", check=True, capture_output=True, timeout=60)
     told = re.findall(r"\./([\w/]+\.v)\b", (tmp_path / "theory" / "Makefile.conf").read_text("utf-8"))
     assert {*told} == {path.relative_to(THEORY).as_posix() for path in THEORY.rglob("*.v")}
+
+
+OLDER = "**This page is older than `.ci/versions`**"
+
+
+@pytest.fixture(scope="module")
+def versions() -> ModuleType:
+    """Return the script .ci/versions as a module."""
+    return script("versions")
+
+
+def tells_all(versions: ModuleType, page: str) -> bool:
+    """Tell whether each extra and each file of tests that the script now takes stands on the page, but in a sentence on its age."""
+    told = "\n".join(part for part in page.split("\n\n") if not part.startswith(OLDER))
+    return f"| {', '.join(versions.EXTRAS)} |" in told and all(file in told for file in versions.FAST)
+
+
+def test_the_page_says_where_it_is_older_than_the_script(versions: ModuleType) -> None:
+    page = (ROOT / ".ci" / "versions.md").read_text()
+    assert tells_all(versions, page) != (OLDER in page)
+
+
+def test_a_new_page_is_told_from_an_older_one(versions: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
+    one = versions.Found("3.11.7", "lowest", True, {"numpy": "2.3.0"}, "1 passed", (), True)
+    page = versions.page([one], 1, f"the tests of {versions.FILES}")
+    assert tells_all(versions, page)
+    monkeypatch.setattr(versions, "EXTRAS", (*versions.EXTRAS, "another"))
+    assert not tells_all(versions, page) and not tells_all(versions, f"{page}\n{OLDER}: | {', '.join(versions.EXTRAS)} |\n")
+
+
+FOLDERS = ("exact", "numeric", "proofs")
+
+
+@pytest.fixture(scope="module")
+def wheel_files(root: Path, checkout: list[PurePosixPath], tmp_path_factory: pytest.TempPathFactory) -> set[str]:
+    """Names in a wheel built from a copy, so that no earlier build's leftovers count and none are left behind."""
+    copy, out = tmp_path_factory.mktemp("tree"), tmp_path_factory.mktemp("wheel")
+    for name in checkout:
+        (copy / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(root / name, copy / name, follow_symlinks=False)
+    build = f"from setuptools import build_meta; build_meta.build_wheel({str(out)!r})"
+    run = subprocess.run([sys.executable, "-c", build], cwd=copy, capture_output=True, text=True)
+    assert run.returncode == 0, run.stdout + run.stderr
+    (wheel,) = out.glob("*.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        return {name for name in archive.namelist() if ".dist-info/" not in name}
+
+
+def test_wheel_and_tree_hold_the_same_files(root: Path, checkout: list[PurePosixPath], wheel_files: set[str]) -> None:
+    files = [name for name in checkout if not (root / name).is_symlink()]
+    expected = {str(name) for name in files if name.parts[0] == "faultspace"}
+    expected |= {f"faultspace/{name}" for name in files if name.parts[0] in FOLDERS}
+    advice = "a folder of modules has an __init__.py; another file has its pattern in `package-data` of pyproject.toml"
+    assert sorted(expected - wheel_files) == [], f"in the tree but not in the wheel: {advice}"
+    assert sorted(wheel_files - expected) == [], "in the wheel but not in the tree"
+
+
+def test_the_wheel_brings_every_room(wheel_files: set[str]) -> None:
+    needed = {"faultspace/__init__.py", "faultspace/py.typed"} | {f"faultspace/{room}/__init__.py" for room in FOLDERS}
+    assert sorted(needed - wheel_files) == []

@@ -19,7 +19,7 @@ from faultspace.exact import Experiment, arx_limit, limit, read_experiment
 from faultspace.numeric.method.model.arx import adjoint, polynomial
 from faultspace.numeric.method.model.invariants import transfer
 from faultspace.numeric.method.model.weighted_reduction import Reduction, circle, descend
-from faultspace.proofs.evidence.kept_experiments import WITHOUT_RANK, kept
+from faultspace.proofs.evidence.refuting_experiments import WITHOUT_RANK, kept
 
 ANGLES = 1024
 NOISE = "1/10"

@@ -14,8 +14,7 @@ from faultspace.proofs.boxes.box import Box, in_order, rows_where
 from faultspace.proofs.evidence.corpus import CORPUS, examine
 from faultspace.proofs.evidence.questions import RANKS
 from faultspace.proofs.hypotheses import ablations, trajectories
-from faultspace.proofs.hypotheses.aimed import AIMED, HIDDEN_ZEROS, aimed_systems
-from faultspace.proofs.hypotheses.facets import POOR, degenerate, expressions, facets
+from faultspace.proofs.hypotheses.facets import AIMED, HIDDEN_ZEROS, POOR, aimed_systems, degenerate, expressions, facets
 from faultspace.proofs.hypotheses.systems import gap, range_of_f, rank_formula
 from faultspace.proofs.quantities.batches import Batch
 from faultspace.proofs.rocq.sources import sources

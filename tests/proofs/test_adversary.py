@@ -27,14 +27,14 @@ from faultspace.proofs.adversary.catalogue import catalogue, expected_of, statem
 from faultspace.proofs.adversary.engine import pursue
 from faultspace.proofs.adversary.float_limits import exact_experiment, float_limits
 from faultspace.proofs.adversary.following import Trace
-from faultspace.proofs.adversary.limit_attacks import led_family, open_family, shaped_family
+from faultspace.proofs.adversary.limit_attacks import led_family, open_family, shaped_family, shaped_input
 from faultspace.proofs.adversary.results import AttackRecord, certified, checked_again, refuting, run_attacks, stored
 from faultspace.proofs.adversary.rounding import rational_roots, solve_affine
-from faultspace.proofs.adversary.spectra import shaped_input
 from faultspace.proofs.evidence.attacks import Attack, Attacked, Floats
+from faultspace.proofs.hypotheses.consistency import consistency
 from faultspace.proofs.trust import checker
 from faultspace.proofs.verdict.ledger import load
-from faultspace.proofs.verdict.verdicts import Outcome, ReadingResult, Row, Verdict
+from faultspace.proofs.verdict.verdicts import Outcome, ReadingResult, Verdict
 from tests.thorough import THOROUGH, every
 
 FILE = Path(results.__file__).with_name(results.FILE)
@@ -65,7 +65,7 @@ def test_without_its_sign_test_the_engine_does_not_find_it(monkeypatch: pytest.M
 
     monkeypatch.setattr(engine, "crossings", blind)
     trial = pursue(attack(FALSE_REPAIR), seconds=8 if THOROUGH else 2, seed=0)
-    assert not trial.refuted
+    assert trial.witness is None and trial.bracket is None
     assert trial.evaluations > 100
 
 
@@ -74,7 +74,7 @@ def test_where_no_zero_is_rational_two_exact_points_of_opposite_sign_prove_one()
     one = attack("proposition-1.two-sided-range by a double pole and a moving average")
     assert one.exact is not None
     trial = pursue(one, seconds=60, seed=0)
-    assert trial.refuted
+    assert trial.witness or trial.bracket
     if trial.bracket is not None:
         first, second = (one.exact(point) for point in trial.bracket)
         assert first * second < 0
@@ -83,7 +83,7 @@ def test_where_no_zero_is_rational_two_exact_points_of_opposite_sign_prove_one()
 def test_no_file_of_counterexamples_is_read() -> None:
     folder = Path(engine.__file__).parent
     sources = "".join(path.read_text("utf-8") for path in folder.glob("*.py"))
-    assert "kept_experiments" not in sources and "counterexamples/" not in sources
+    assert "refuting_experiments" not in sources and "counterexamples/" not in sources
 
 
 QUICK = (
@@ -220,7 +220,7 @@ def test_what_holds_with_neither_a_locked_theorem_nor_an_attack_is_an_error() ->
         target = f"{claim}.{result.reading.id}"
         attacked = decided(Attacking((), {target: (found_nothing,)}), theorems=theorems)
         assert attacked.verdict == Verdict.CERTIFIED
-        old = decided(Attacking((), {target: (replace(found_nothing, trouble="out of date"),)}), theorems=theorems)
+        old = decided(Attacking((), {target: (replace(found_nothing, trouble="out of date", stale=True),)}), theorems=theorems)
         assert old.verdict == Verdict.ERROR
     assert decided(Attacking(()), Verdict.REFUTED, theorems=()).verdict == Verdict.REFUTED, "a counterexample stands by itself"
 
@@ -273,7 +273,7 @@ def _dies(target: str, records: object) -> None:
 
 def test_a_row_of_the_hypothesis_table_gives_way_too() -> None:
     record = record_of("without consistency: u white by a double pole")
-    row = Row("consistency", "proposition-1", "right", ("u white",), Verdict.CERTIFIED, "on experiments", None, (), frozenset())
+    row = consistency().row(("u white",), Outcome(Verdict.CERTIFIED, "on experiments"))
     assert of_row(row, Attacking((record,))).verdict == Verdict.REFUTED
     assert of_row(replace(row, dropped=("u white", "past >= n")), Attacking((record,))).verdict == Verdict.CERTIFIED
     assert of_row(row, Attacking(())).verdict == Verdict.ERROR, "nothing attacked it, and no theorem says it"

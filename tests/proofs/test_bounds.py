@@ -23,17 +23,16 @@ from faultspace.proofs.brought import conjecturing, sparse_systems, tables
 from faultspace.proofs.brought.bounds import ABOVE, BELOW, Fit, Fitted, Form, Grammar, Term, fit, forms
 from faultspace.proofs.brought.claims import Answered, make_box, make_claim
 from faultspace.proofs.brought.conjectures import Bound, Conjectures, Sharpened
-from faultspace.proofs.brought.conjecturing import sharpen
+from faultspace.proofs.brought.conjecturing import default_columns, sharpen
 from faultspace.proofs.brought.direct_sums import direct_sums
 from faultspace.proofs.brought.known_bounds import at_most_zero, known_as
-from faultspace.proofs.brought.known_systems import known_systems
-from faultspace.proofs.brought.usual_columns import default_columns
+from faultspace.proofs.brought.known_cases import known_systems
 from faultspace.proofs.language.evaluating import Exactly, evaluate
 from faultspace.proofs.language.grammar import read
 from faultspace.proofs.language.linear import Linear, linear, words
 from faultspace.proofs.quantities.registry import Kind, Subject, quantities
 from faultspace.proofs.trust.structure_certificates import accept
-from tests.thorough import every
+from tests.thorough import THOROUGH, every
 
 ROOT = Path(__file__).parents[2]
 SMALL = {"total": 3}
@@ -43,15 +42,16 @@ COLUMNS = ("lag", "zeta", "delay_known", "n_z", "rank(G)")
 @pytest.fixture(autouse=True)
 def few_outside(monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> None:
     """Most tests have enough in fewer systems outside the box, which take most of the time."""
-    if "all_outside" not in request.fixturenames:
+    all_there = "all_outside" in request.fixturenames
+    if not all_there:
         monkeypatch.setattr(tables, "MOST_SUMS", 300)
         monkeypatch.setattr(tables, "MOST_MET", 100)
-        monkeypatch.setattr(sparse_systems, "BATCHES", 1)
+    monkeypatch.setattr(sparse_systems, "BATCHES", (60 if THOROUGH else 8) if all_there else 1)
 
 
 @pytest.fixture
 def all_outside() -> None:
-    """A test that asks for it has as many as users have."""
+    """A test that asks for it has as many as users have, but for sparse ones, of which each seed draws 8 batches of 60."""
 
 
 def sharpened(conclusion: str, *hypotheses: str, box: dict[str, Any] | None = None) -> Sharpened:

@@ -19,11 +19,10 @@ from faultspace.exact import FaultySystem, Matrix, PrimeField, Rationals, Residu
 from faultspace.proofs.brought import tables
 from faultspace.proofs.brought.claims import Answered, make_box, make_claim
 from faultspace.proofs.brought.conjectures import Conjectures, Sharpened
-from faultspace.proofs.brought.conjecturing import sharpen
+from faultspace.proofs.brought.conjecturing import default_columns, sharpen
 from faultspace.proofs.brought.direct_sums import direct_sums, sum_sizes
 from faultspace.proofs.brought.drawn_cases import drawn
 from faultspace.proofs.brought.known_bounds import known_as
-from faultspace.proofs.brought.usual_columns import default_columns
 from faultspace.proofs.language.evaluating import evaluate, exactly
 from faultspace.proofs.language.grammar import read
 from faultspace.proofs.language.vocabularies import CHOICE, ONE_A_AND_C, PAIR, RECORD, SYSTEM, VOCABULARIES

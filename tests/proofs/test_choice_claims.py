@@ -24,15 +24,15 @@ from faultspace.proofs.brought.claiming import decide_claims, explain
 from faultspace.proofs.brought.claims import Answered, make_claim
 from faultspace.proofs.brought.known_cases import known_cases, smaller
 from faultspace.proofs.language.by_batches import Table, true_of
-from faultspace.proofs.language.evaluating import evaluate, exactly
+from faultspace.proofs.language.evaluating import exactly
 from faultspace.proofs.language.grammar import read
 from faultspace.proofs.language.vocabularies import CHOICE, VOCABULARIES
 from faultspace.proofs.quantities.blocks import height
 from faultspace.proofs.quantities.cases import Choice
 from faultspace.proofs.quantities.choices import OF_A_CHOICE
-from faultspace.proofs.trust.structure_certificates import accept
 from tests.oracle import behaviours, fault_space
 from tests.oracle.systems import parse_system
+from tests.proofs.case_checks import check_documents, check_example, check_order, check_refused, check_the_first, check_weights
 from tests.thorough import every
 
 ONE: dict[str, Any] = {"n": [1, 1], "m": [1, 1], "p": [1, 1], "k": [1, 1]}
@@ -129,20 +129,13 @@ BOXES = [
 
 @pytest.mark.parametrize("given", BOXES, ids=str)
 def test_a_box_of_choices_is_gone_through_in_the_stated_order(given: dict[str, Any]) -> None:
-    box = box_of(**given)
-    listed = []
-    for sizes in box.sizes():
-        for stretch in box.stretches(sizes, reduced=False):
-            listed += [stretch.batch.case(int(i)) for i in range(len(stretch.batch))]
-    assert listed == list(in_order(box))
+    check_order(box_of(**given), in_order)
 
 
 def test_the_choices_that_are_looked_at_stand_for_all() -> None:
     for field in ("Q", "GF(2)"):
-        box = box_of(field, n=[0, 1], m=[1, 2], p=[0, 1], total=3, k=[1, 2], entries=[-1, 0, 1] if field == "Q" else [0, 1])
-        for sizes in box.sizes():
-            totals = [sum(int(one.weights.sum()) for one in box.stretches(sizes, reduced=reduced)) for reduced in (True, False)]
-            assert totals[0] == totals[1]
+        entries = [-1, 0, 1] if field == "Q" else [0, 1]
+        check_weights(box_of(field, n=[0, 1], m=[1, 2], p=[0, 1], total=3, k=[1, 2], entries=entries))
 
 
 def test_no_order_of_states_or_outputs_is_left_out() -> None:
@@ -165,21 +158,7 @@ FAILING = [
 @pytest.mark.parametrize(("conclusion", "hypotheses"), FAILING)
 @pytest.mark.parametrize("entries", [[0, 1], [-1, "1/2"]])
 def test_the_choice_that_refutes_is_the_first_of_the_box(conclusion: str, hypotheses: list[str], entries: list[Any]) -> None:
-    given = {**ONE, "entries": entries}
-    claim = make_claim("x", {"about": CHOICE, "conclusion": conclusion, "hypotheses": hypotheses, "box": given})
-    box = claim.boxes["Q"]
-    assert isinstance(box, ChoiceBox)
-
-    def fails(case: Choice) -> bool:
-        knows = exactly(case)
-        return all(evaluate(one.that, knows) for one in claim.hypotheses) and not evaluate(claim.conclusion, knows)
-
-    wanted = next((one for one in in_order(box) if fails(one)), None)
-    answer = fs.claim(conclusion, hypotheses=hypotheses, about=CHOICE, box=given, ablation=False).answers[0]
-    if wanted is None:
-        assert answer.counterexample is None or not answer.counterexample.smallest
-    else:
-        assert answer.counterexample is not None and answer.counterexample.smallest and answer.counterexample.case == wanted
+    check_the_first(CHOICE, conclusion, hypotheses, {**ONE, "entries": entries}, in_order)
 
 
 EXAMPLES = {one.id: one for one in read_claims(content("example:choices").decode())}
@@ -187,12 +166,7 @@ EXAMPLES = {one.id: one for one in read_claims(content("example:choices").decode
 
 @pytest.mark.parametrize("name", list(EXAMPLES))
 def test_an_example_about_choices_is_answered_as_expected(name: str) -> None:
-    claim = EXAMPLES[name]
-    small = {field: replace(box, n=(1, 1), m=(1, 1), p=(1, 2)) for field, box in claim.boxes.items()}
-    answers = decide_claims([replace(claim, boxes=small)])
-    assert answers.as_expected, answers.title
-    for one in answers.certificates:
-        accept(one)
+    check_example(EXAMPLES[name], lambda box: replace(box, n=(1, 1), m=(1, 1), p=(1, 2)))
 
 
 def test_the_bad_choice_is_no_larger_than_the_published_one() -> None:
@@ -237,9 +211,7 @@ REFUSED = [
 
 @pytest.mark.parametrize(("text", "words"), REFUSED)
 def test_what_is_refused_about_choices_is_told_in_words(text: str, words: str) -> None:
-    with pytest.raises(InvalidInput) as error:
-        read(text, vocabulary=VOCABULARIES[CHOICE])
-    assert words in str(error.value)
+    check_refused(text, words, CHOICE)
 
 
 def test_boxes_of_choices_are_checked() -> None:
@@ -258,15 +230,13 @@ def test_explaining_a_choice(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     file.write_text(json.dumps({"system": system, "P": [[3], [2]]}))
     assert main(["claim", str(claims), "--explain", str(file), "--json"]) == 0
     assert {"level": 1, "text": "equal", "value": "True"} in json.loads(capsys.readouterr().out)["explained"]["x"]
-    for document, words in (
+    documents = (
         ({"system": system, "P": [[3]]}, "expected 2 rows"),
         ({"system": system, "P": 3}, "expected 2 rows"),
         ({"system": system, "P": [[1], [2, 3]]}, "P"),
         ({"P": [[1]]}, "expected system and P"),
         (system, "got a system, expected a choice"),
         ({"first": system, "second": system}, "got a pair of systems, expected a choice"),
-    ):
-        file.write_text(json.dumps(document))
-        assert main(["claim", str(claims), "--explain", str(file)]) == 2
-        assert words in capsys.readouterr().err
+    )
+    check_documents(claims, documents, capsys)
     assert [text for _, text, _ in explain(EXAMPLES["independent-columns"], Choice(fs.System(**system).residual, Matrix.of([[1], [0]])))]  # type: ignore[arg-type]

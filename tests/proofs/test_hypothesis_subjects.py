@@ -27,8 +27,7 @@ from faultspace.proofs.evidence.exhaustive import all_systems
 from faultspace.proofs.evidence.experiments import examine_experiment
 from faultspace.proofs.evidence.families import adversarial
 from faultspace.proofs.evidence.pairs_by_polynomial import pencil_of
-from faultspace.proofs.hypotheses import given_zeros
-from faultspace.proofs.hypotheses.aimed import HIDDEN_ZEROS, HYPOTHESES, aimed_systems
+from faultspace.proofs.hypotheses import pencils
 from faultspace.proofs.hypotheses.aimed_experiments import (
     BOTH_STATES,
     FAMILIES,
@@ -43,6 +42,7 @@ from faultspace.proofs.hypotheses.aimed_experiments import (
 )
 from faultspace.proofs.hypotheses.changes_of_state import columns_moved, equivalent_pairs, moved, similarity
 from faultspace.proofs.hypotheses.consistency import Driven, consistency, consistency_coloured, driven
+from faultspace.proofs.hypotheses.facets import HIDDEN_ZEROS, HYPOTHESES, aimed_systems
 from faultspace.proofs.hypotheses.pairs import Compared, columns_in_space, same_model, theorem_3_i
 from faultspace.proofs.hypotheses.systems import signal_from_unknown_state
 from faultspace.proofs.hypotheses.windowed import Windowed
@@ -140,7 +140,7 @@ def test_feedback_is_put_right_by_no_change_of_state_where_the_model_is_asked_fo
 
 def test_polynomials_of_every_kind_are_asked_for() -> None:
     pencil = pencil_of(of([[0, 1], [0, 0]], [[0, 1], [1, 0]], [[1, 0], [0, 1]], [[0, 0], [0, 0]]))
-    found = list(given_zeros.wanted(pencil))
+    found = list(pencils.wanted(pencil))
     assert pencil.zeta == 2 and {len(f) - 1 for f in found} == {0, 1, 2} and all(found)
     assert any(len(f) == 3 and f[0] == f[1] == 0 for f in found), "a zero constant term"
     assert any(f[-1] != 1 for f in found), "not monic"
@@ -148,21 +148,21 @@ def test_polynomials_of_every_kind_are_asked_for() -> None:
 
 
 def test_what_a_system_reaches_and_an_unobservable_one_does_not() -> None:
-    assert given_zeros.every_polynomial_is_reached(pencil_of(of([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], [[0]])))
-    assert not given_zeros.every_polynomial_is_reached(pencil_of(of([[-1, -1], [1, 1]], [[-1], [-1]], [[-1, -1]], [[-1]])))
+    assert pencils.every_polynomial_is_reached(pencil_of(of([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], [[0]])))
+    assert not pencils.every_polynomial_is_reached(pencil_of(of([[-1, -1], [1, 1]], [[-1], [-1]], [[-1, -1]], [[-1]])))
 
 
 def test_a_wrong_assignment_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     pencil = pencil_of(of([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], [[0]]))
-    assert given_zeros.every_polynomial_is_reached(pencil)
+    assert pencils.every_polynomial_is_reached(pencil)
     for degree in (1, 2):  # the one of degree 1 is not the last, whose zeros are looked for by another route as well
 
         def shifted(pencil: Exceptional, desired: list[object], degree: int = degree) -> ZeroAssignment:
             wrong = [*desired[:-1], str(2 * Fraction(str(desired[-1])))] if len(desired) == degree + 1 else desired
             return assign_zeros(pencil, wrong)
 
-        monkeypatch.setattr(given_zeros, "assign_zeros", shifted)
-        assert not given_zeros.every_polynomial_is_reached(pencil)
+        monkeypatch.setattr(pencils, "assign_zeros", shifted)
+        assert not pencils.every_polynomial_is_reached(pencil)
 
 
 def test_no_pair_of_an_unobservable_system_lacks_its_unobservable_modes() -> None:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import ast
-from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 import faultspace.proofs.claims
 from faultspace.proofs.brought.readings import readings
+from faultspace.proofs.claims import TOPICS, check_of
 from faultspace.proofs.verdict.ledger import IN_LANGUAGE, load
 from faultspace.proofs.verdict.verdicts import Verdict
 
@@ -17,31 +17,26 @@ ROOM = Path(faultspace.proofs.claims.__file__).parent
 
 
 def checks(path: Path) -> set[str]:
-    """The public functions of a file of claims/ that take a Workbench alone, as "file.function"."""
+    """The public functions of a file of claims/ that take a Workbench alone."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     named = (f for f in tree.body if isinstance(f, ast.FunctionDef) and [a.arg for a in f.args.args] == ["bench"])
-    return {f"{path.stem}.{f.name}" for f in named if f.name[0] != "_"}
+    return {f.name for f in named if f.name[0] != "_"}
 
 
 def test_every_reading_has_its_check_and_every_check_its_reading() -> None:
     every = {reading.check for claim in load() for reading in claim.readings}
     named = {check for check in every if not check.startswith(f"{IN_LANGUAGE}.")}
-    assert named == {check for path in ROOM.glob("*.py") for check in checks(path)}
+    listed = [check for path in ROOM.glob("*.py") for check in checks(path)]
+    assert sorted(check_of(check).__name__ for check in named) == sorted(listed) == sorted(name.replace(".", "_") for name in named)
     assert {check.partition(".")[2] for check in every - named} <= readings().keys()
-    for check in named:
-        file, _, name = check.partition(".")
-        assert callable(getattr(import_module(f"faultspace.proofs.claims.{file}"), name))
+    assert {one for claims in TOPICS.values() for one in claims} <= {claim.id.replace("-", "_") for claim in load()}
+    assert all((ROOM / f"{topic}.py").exists() for topic in TOPICS)
 
 
 def test_a_check_is_where_its_claim_is_unless_the_ledger_says_so() -> None:
     readings = {(claim.id, reading.id): reading.check for claim in load() for reading in claim.readings}
     assert readings["theorem-1", "n-samples"] == "theorem_1.n_samples"
     assert readings["settle-2", "n"] == readings["assumption-4", "n-known"] == "language.assumption-4--n-known"
-
-
-def test_every_file_of_checks_is_that_of_a_claim() -> None:
-    files = {path.stem for path in ROOM.glob("*.py")} - {"__init__", "common"}
-    assert files <= {claim.id.replace("-", "_") for claim in load()}
 
 
 def test_expected_verdicts_are_of_the_closed_list() -> None:

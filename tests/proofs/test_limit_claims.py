@@ -10,7 +10,7 @@ import pytest
 
 from faultspace.base.progress import silent
 from faultspace.exact.limits.experiments import Experiment
-from faultspace.proofs.claims import assumption_2, past_outputs, proposition_1, settle_1
+from faultspace.proofs.claims import experiments
 from faultspace.proofs.evidence.experiments import (
     FAMILIES,
     LIMITS,
@@ -35,26 +35,26 @@ def bench() -> Workbench:
     """Return a workbench with experiments of each family, fourteen in a thorough run, and more of those in which v is independent of u."""
     made = Workbench("quick", 1, silent)
     counts = {name: 120 if name == Drawn.INDEPENDENT else 30 if "independent" in name else 14 for name in FAMILIES}
-    made.limits = tuple(one for name, count in counts.items() for seed in range(0, count, every()) for one in LIMITS.make((name, seed)))
+    made.limits = tuple(LIMITS.make((name, seed)) for name, count in counts.items() for seed in range(0, count, every()))
     return made
 
 
 READINGS = (
-    proposition_1.two_sided,
-    proposition_1.white_a_c_seen,
-    proposition_1.white_b_d_seen,
-    proposition_1.autoregressive,
-    proposition_1.lead_one,
-    proposition_1.two_sided_output_error,
-    proposition_1.two_sided_two_states,
-    proposition_1.two_sided_one_state,
-    proposition_1.two_sided_autoregressive,
-    proposition_1.two_sided_nilpotent,
-    proposition_1.two_sided_long_past,
-    proposition_1.two_sided_long_past_inputs,
-    settle_1.not_both,
-    past_outputs.white_fault,
-    past_outputs.past_inputs_long_past,
+    experiments.proposition_1_two_sided,
+    experiments.proposition_1_white_a_c_seen,
+    experiments.proposition_1_white_b_d_seen,
+    experiments.proposition_1_autoregressive,
+    experiments.proposition_1_lead_one,
+    experiments.proposition_1_two_sided_output_error,
+    experiments.proposition_1_two_sided_two_states,
+    experiments.proposition_1_two_sided_one_state,
+    experiments.proposition_1_two_sided_autoregressive,
+    experiments.proposition_1_two_sided_nilpotent,
+    experiments.proposition_1_two_sided_long_past,
+    experiments.proposition_1_two_sided_long_past_inputs,
+    experiments.settle_1_not_both,
+    experiments.past_outputs_white_fault,
+    experiments.past_outputs_past_inputs_long_past,
 )
 
 
@@ -73,22 +73,22 @@ def test_a_reading_holds_and_falls_when_what_certificates_say_is_turned_round(re
 
     spoilt = Workbench("quick", 1, silent)
     spoilt.limits = tuple(turned(d) for d in bench.limits)
-    if reading is proposition_1.white_b_d_seen:
+    if reading is experiments.proposition_1_white_b_d_seen:
         assert any(d.state_inputs is not None and d.state_inputs[0] != d.state_inputs[1] for d in bench.limits)
     assert reading(spoilt).verdict in (Verdict.REFUTED, Verdict.ERROR)  # type: ignore[operator]
 
 
 REFUTED = (
-    assumption_2.one_sided,
-    assumption_2.without_lag_zero,
-    proposition_1.white_a_c,
-    proposition_1.white_b_d,
-    proposition_1.coloured_a_c,
-    proposition_1.two_sided_range,
-    settle_1.a_c_wrong,
-    settle_1.for_every_system,
-    past_outputs.coloured_fault,
-    past_outputs.past_inputs,
+    experiments.assumption_2_one_sided,
+    experiments.assumption_2_without_lag_zero,
+    experiments.proposition_1_white_a_c,
+    experiments.proposition_1_white_b_d,
+    experiments.proposition_1_coloured_a_c,
+    experiments.proposition_1_two_sided_range,
+    experiments.settle_1_a_c_wrong,
+    experiments.settle_1_for_every_system,
+    experiments.past_outputs_coloured_fault,
+    experiments.past_outputs_past_inputs,
 )
 
 
@@ -144,12 +144,12 @@ def test_a_first_look_sees_what_the_accepted_certificates_state(name: str) -> No
 def test_a_search_rests_on_accepted_certificates_and_not_on_its_first_look(monkeypatch: pytest.MonkeyPatch) -> None:
     """A look that sees failures everywhere brings no counterexample, and one that fails is put before the checker."""
     bench = Workbench("quick", 1, silent)
-    inputs = proposition_1.drives([proposition_1.WHITE], proposition_1.LEADS)
+    inputs = experiments.drives([experiments.WHITE], experiments.LEADS)
     few = list(islice(experiments_in_order(inputs), 40))
-    monkeypatch.setattr(proposition_1, "experiments_in_order", lambda inputs: iter(few))
-    found = proposition_1.smallest_limit(bench, inputs, lambda e: not e.equal, "")
+    monkeypatch.setattr(experiments, "experiments_in_order", lambda inputs: iter(few))
+    found = experiments.smallest_limit(bench, inputs, lambda e: not e.equal, "")
     put = {e.experiment for e in bench._examined_experiments.values()}
     assert found.verdict == Verdict.REFUTED and len(put) == 1 <= len(bench._looks)
     few = few[:5]
-    never = proposition_1.smallest_limit(bench, inputs, lambda e: not e.accepted, "")
+    never = experiments.smallest_limit(bench, inputs, lambda e: not e.accepted, "")
     assert never.verdict == Verdict.ERROR and "no counterexample" in never.evidence

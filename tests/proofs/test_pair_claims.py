@@ -37,6 +37,7 @@ from faultspace.proofs.quantities.ranks import Numbers
 from faultspace.proofs.trust.structure_certificates import accept
 from tests.oracle import behaviours
 from tests.oracle.systems import parse_system
+from tests.proofs.case_checks import check_documents, check_example, check_order, check_refused, check_the_first, check_weights
 from tests.thorough import every
 
 KINDS = {PAIR: False, ONE_A_AND_C: True}
@@ -171,25 +172,13 @@ SMALL = [
 @pytest.mark.parametrize("about", list(KINDS))
 @pytest.mark.parametrize("given", SMALL, ids=str)
 def test_a_box_of_pairs_is_gone_through_in_the_stated_order(about: str, given: dict[str, Any]) -> None:
-    box = box_of(about, **given)
-    listed: list[Pair] = []
-    for sizes in box.sizes():
-        before = len(listed)
-        for stretch in box.stretches(sizes, reduced=False):
-            order = range(len(stretch.batch))
-            listed += [stretch.batch.case(int(i)) for i in order]
-            assert set(stretch.weights) <= {1}
-        assert len(listed) - before == box.count(*sizes)
-    assert listed == list(in_order(box))
+    check_order(box_of(about, **given), in_order)
 
 
 @pytest.mark.parametrize("about", list(KINDS))
 @pytest.mark.parametrize("field", ["Q", "GF(2)", "GF(3)"])
 def test_the_pairs_that_are_looked_at_stand_for_all(about: str, field: str) -> None:
-    box = box_of(about, field, n=[0, 2], m=[0, 1], p=[0, 2], total=3)
-    for sizes in box.sizes():
-        total = sum(int(stretch.weights.sum()) for stretch in box.stretches(sizes, reduced=True))
-        assert total == box.count(*sizes), sizes
+    check_weights(box_of(about, field, n=[0, 2], m=[0, 1], p=[0, 2], total=3))
 
 
 def test_every_pair_is_a_change_of_one_that_is_looked_at() -> None:
@@ -225,20 +214,7 @@ FAILING = [
 @pytest.mark.parametrize(("conclusion", "hypotheses"), FAILING)
 def test_the_pair_that_refutes_is_the_first_of_the_box(about: str, conclusion: str, hypotheses: list[str]) -> None:
     given: dict[str, Any] = {"n": [0, 1], "m": [1, 1], "p": [1, 1], "entries": [-1, 0, 1] if KINDS[about] else [0, 1]}
-    claim = make_claim("x", {"about": about, "conclusion": conclusion, "hypotheses": hypotheses, "box": given})
-    answer = decided(conclusion, *hypotheses, about=about, **given)
-    box = claim.boxes["Q"]
-    assert isinstance(box, PairBox)
-
-    def fails(pair: Pair) -> bool:
-        knows = exactly(pair)
-        return all(evaluate(one.that, knows) for one in claim.hypotheses) and not evaluate(claim.conclusion, knows)
-
-    wanted = next((one for one in in_order(box) if fails(one)), None)
-    if wanted is None:
-        assert answer.counterexample is None or not answer.counterexample.smallest
-    else:
-        assert answer.counterexample is not None and answer.counterexample.case == wanted and answer.counterexample.smallest
+    check_the_first(about, conclusion, hypotheses, given, in_order)
 
 
 # -- verdicts ----------------------------------------------------------------------------------------------------------
@@ -253,12 +229,7 @@ EXAMPLES = {one.id: one for one in read_claims(content("example:pairs").decode()
 
 @pytest.mark.parametrize("name", list(EXAMPLES))
 def test_an_example_about_pairs_is_answered_as_expected(name: str) -> None:
-    claim = EXAMPLES[name]
-    small = {field: replace(box, n=(1, 1), total=3 if claim.about == PAIR else 4) for field, box in claim.boxes.items()}
-    answers = decide_claims([replace(claim, boxes=small)])
-    assert answers.as_expected, answers.title
-    for one in answers.certificates:
-        accept(one)
+    check_example(EXAMPLES[name], lambda box: replace(box, n=(1, 1), total=3 if EXAMPLES[name].about == PAIR else 4))
 
 
 def test_n_samples_are_refuted_by_a_pair_no_larger_than_the_published_one() -> None:
@@ -300,7 +271,7 @@ def test_a_pair_outside_the_box_is_made_smaller() -> None:
     answer = decided("implies(equal_on(2), equal)", **ONE)
     assert answer.verdict == Answered.REFUTED and not answer.counterexample.smallest
     case = answer.counterexample.case
-    assert max(case.first.n, case.second.n) == 2 and "outside the box" in answer.summary()
+    assert max(case.first.n, case.second.n) == 2 and "not from the box" in answer.summary()
     shared = decided("implies(equal_on(2), equal)", about=ONE_A_AND_C, **ONE).counterexample.case
     assert (shared.first.A, shared.first.C) == (shared.second.A, shared.second.C) and shared.one_A_and_C and shared.first.n == 2
     system = ResidualSystem.of([[3]], [[1, 2]], [[5], [1]], [[0, 9], [7, 1]])
@@ -383,9 +354,7 @@ REFUSED = [
 
 @pytest.mark.parametrize(("text", "words"), REFUSED)
 def test_what_is_refused_about_pairs_is_told_in_words(text: str, words: str) -> None:
-    with pytest.raises(InvalidInput) as error:
-        read(text, vocabulary=VOCABULARIES[PAIR])
-    assert words in str(error.value)
+    check_refused(text, words, PAIR)
 
 
 def test_words_of_other_claims_are_named() -> None:
@@ -428,21 +397,17 @@ def test_explaining_and_the_command(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert set(smallest) == {"first", "second", "quantities", "computed", "in_box"}
     assert main(["check", *map(str, (tmp_path / "out").iterdir())]) == 0
     capsys.readouterr()
-    for document, words in (
+    documents = (
         ({"first": first}, "expected first and second"),
         ({"first": first, "second": second, "third": 1}, "expected first and second"),
         ({"first": first, "second": 3}, "second: got 3"),
         ({"first": first, "second": {**second, "field": {"prime": 5}}}, "expected one field"),
         ({"first": first, "second": {"A": [[1]], "F": [[1]], "C": [[1], [1], [1]], "G": [[1], [1], [1]]}}, "expected as many in both"),
         (first, 'got a system, expected a pair: {"first": SYSTEM, "second": SYSTEM}'),
-    ):
-        pair.write_text(json.dumps(document))
-        assert main(["claim", str(claims), "--explain", str(pair)]) == 2
-        assert words in capsys.readouterr().err
+    )
+    check_documents(claims, documents, capsys)
     claims.write_text(f"[claim.x]\nabout = '{ONE_A_AND_C}'\nconclusion = 'equal'\n")
-    pair.write_text(json.dumps({"first": first, "second": {**second, "A": [["5"]]}}))
-    assert main(["claim", str(claims), "--explain", str(pair)]) == 2
-    assert "expected the same in both" in capsys.readouterr().err
+    check_documents(claims, [({"first": first, "second": {**second, "A": [["5"]]}}, "expected the same in both")], capsys)
 
 
 def test_entries_over_a_denominator_are_decided_too() -> None:

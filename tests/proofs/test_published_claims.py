@@ -13,7 +13,7 @@ from faultspace.exact.algebra.fields import QQ, PrimeField, field_from_json
 from faultspace.packaged_examples import content
 from faultspace.proofs.boxes.box import Box
 from faultspace.proofs.boxes.record_box import RecordBox
-from faultspace.proofs.brought import deciding, known_systems
+from faultspace.proofs.brought import deciding, known_cases
 from faultspace.proofs.brought.claim_files import read_claims
 from faultspace.proofs.brought.claiming import decide_claims, explain
 from faultspace.proofs.brought.claims import Answered, Claim, make_claim
@@ -114,10 +114,10 @@ def test_a_claim_of_the_ledger_gets_its_verdict(name: str) -> None:
 
 def test_the_known_systems_are_many_and_of_every_kind() -> None:
     for field in (QQ, PrimeField(2), PrimeField(5), field_from_json({"minimal_polynomial": ["-2", "0", "1"]})):
-        listed = known_systems.known_systems(field)
+        listed = known_cases.known_systems(field)
         assert len(listed) > 300 and {one.origin for one in listed} == {"corpus", "adversary"}
         assert {one.subject.system.field for one in listed} == {listed[0].subject.system.field}
-    sizes = {(one.subject.system.n, one.subject.system.m, one.subject.system.p) for one in known_systems.known_systems(QQ)}
+    sizes = {(one.subject.system.n, one.subject.system.m, one.subject.system.p) for one in known_cases.known_systems(QQ)}
     assert {0, 1, 2, 3} <= {n for n, _, _ in sizes} and 0 in {m for _, m, _ in sizes} and 0 in {p for _, _, p in sizes}
 
 

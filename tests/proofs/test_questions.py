@@ -18,7 +18,7 @@ from faultspace.proofs.evidence.corpus import CORPUS, Evidence, Questions, Sourc
 from faultspace.proofs.evidence.material import Carried, Folder, Material, Shelf, loaded, made
 from faultspace.proofs.evidence.questions import FINITE_ZEROS, INFINITE_ZEROS, OBSERVABILITY, QUESTIONS, RANKS, SPACE, Question, answered
 from faultspace.proofs.hypotheses import ablations, trajectories, windowed
-from faultspace.proofs.hypotheses.aimed import AIMED
+from faultspace.proofs.hypotheses.facets import AIMED
 from faultspace.proofs.hypotheses.windowed import Windowed
 from faultspace.proofs.trust import structure_certificates as make
 from faultspace.proofs.trust.checker import Rejected

@@ -20,7 +20,6 @@ from faultspace.exact.system.systems import FaultySystem
 from faultspace.packaged_examples import content
 from faultspace.proofs.boxes.record_box import RecordBox
 from faultspace.proofs.brought.claim_files import read_claims
-from faultspace.proofs.brought.claiming import decide_claims
 from faultspace.proofs.brought.claims import Answered, make_claim
 from faultspace.proofs.brought.known_cases import known_cases, smaller
 from faultspace.proofs.language.by_batches import Table, true_of, values_of
@@ -35,6 +34,7 @@ from faultspace.proofs.trust.structure_certificates import accept
 from tests.oracle import behaviours, windows
 from tests.oracle.linear import above, column_of, rank
 from tests.oracle.systems import parse_system, trajectory
+from tests.proofs.case_checks import check_documents, check_example, check_order, check_refused, check_the_first, check_weights
 from tests.thorough import every
 
 ONE: dict[str, Any] = {"n": [1, 1], "m": [0, 0], "p": [1, 1], "nu": [1, 1], "N": [1, 2]}
@@ -138,21 +138,12 @@ BOXES: list[dict[str, Any]] = [
 
 @pytest.mark.parametrize("given", BOXES, ids=str)
 def test_a_box_of_records_is_gone_through_in_the_stated_order(given: dict[str, Any]) -> None:
-    box = box_of(**given)
-    listed: list[Record] = []
-    for sizes in box.sizes():
-        before = len(listed)
-        for stretch in box.stretches(sizes, reduced=False):
-            listed += [stretch.batch.case(int(i)) for i in range(len(stretch.batch))]
-        assert len(listed) - before == box.count(*sizes)
-    assert listed == list(in_order(box))
+    check_order(box_of(**given), in_order)
 
 
 def test_the_records_that_are_looked_at_stand_for_all() -> None:
     for field in ("Q", "GF(2)", "GF(3)"):
-        box = box_of(field, n=[0, 1], m=[0, 1], p=[0, 1], total=2, nu=[0, 2], N=[0, 2])
-        for sizes in box.sizes():
-            assert sum(int(one.weights.sum()) for one in box.stretches(sizes, reduced=True)) == box.count(*sizes), sizes
+        check_weights(box_of(field, n=[0, 1], m=[0, 1], p=[0, 1], total=2, nu=[0, 2], N=[0, 2]))
 
 
 FAILING = [
@@ -168,21 +159,7 @@ FAILING = [
 @pytest.mark.parametrize(("conclusion", "hypotheses"), FAILING)
 @pytest.mark.parametrize("entries", [[0, 1], [-1, "1/2"]])
 def test_the_record_that_refutes_is_the_first_of_the_box(conclusion: str, hypotheses: list[str], entries: list[Any]) -> None:
-    given = {**ONE, "entries": entries}
-    claim = make_claim("x", {"about": RECORD, "conclusion": conclusion, "hypotheses": hypotheses, "box": given})
-    box = claim.boxes["Q"]
-    assert isinstance(box, RecordBox)
-
-    def fails(case: Record) -> bool:
-        knows = exactly(case)
-        return all(evaluate(one.that, knows) for one in claim.hypotheses) and not evaluate(claim.conclusion, knows)
-
-    wanted = next((one for one in in_order(box) if fails(one)), None)
-    answer = fs.claim(conclusion, hypotheses=hypotheses, about=RECORD, box=given, ablation=False).answers[0]
-    if wanted is None:
-        assert answer.counterexample is None or not answer.counterexample.smallest
-    else:
-        assert answer.counterexample is not None and answer.counterexample.smallest and answer.counterexample.case == wanted
+    check_the_first(RECORD, conclusion, hypotheses, {**ONE, "entries": entries}, in_order)
 
 
 def test_signs_decide_nothing_that_an_invariant_claim_asks() -> None:
@@ -199,19 +176,15 @@ EXAMPLES = {one.id: one for one in read_claims(content("example:records").decode
 
 @pytest.mark.parametrize("name", list(EXAMPLES))
 def test_an_example_about_records_is_answered_as_expected(name: str) -> None:
-    claim = EXAMPLES[name]
-    small = {}
-    for field, box in claim.boxes.items():
+    few = "lemma" in name
+
+    def smaller_box(box: Any) -> RecordBox:
         assert isinstance(box, RecordBox)
-        small[field] = replace(
-            box, N=(1, min(4 if "lemma" in name else 3, box.N[1])), entries=box.entries[-2:] if "lemma" in name else box.entries
-        )
-    answers = decide_claims([replace(claim, boxes=small)])
+        return replace(box, N=(1, min(4 if few else 3, box.N[1])), entries=box.entries[-2:] if few else box.entries)
+
+    answers = check_example(EXAMPLES[name], smaller_box)
     if name == "fundamental-lemma":  # four samples excite no order of three
         assert answers.answers[0].verdict == Answered.NOT_REFUTED and answers.answers[0].tried.met == 0
-    assert answers.as_expected, answers.title
-    for one in answers.certificates:
-        accept(one)
 
 
 def test_what_a_claim_reads_of_a_record_is_certified() -> None:
@@ -270,9 +243,7 @@ REFUSED = [
 
 @pytest.mark.parametrize(("text", "words"), REFUSED)
 def test_what_is_refused_about_records_is_told_in_words(text: str, words: str) -> None:
-    with pytest.raises(InvalidInput) as error:
-        read(text, vocabulary=VOCABULARIES[RECORD])
-    assert words in str(error.value)
+    check_refused(text, words, RECORD)
 
 
 def test_degenerate_records_have_values() -> None:
@@ -304,7 +275,7 @@ def test_explaining_a_record(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert {"level": 1, "text": "exciting(2)", "value": "True"} in written["explained"]["x"] and written["u"] == [["1"], ["0"], ["1/3"]]
     assert main(["claim", str(claims), "--json", "--out", str(tmp_path / "out")]) == 0
     assert set(json.loads(capsys.readouterr().out)["claims"][0]["smallest"]) == {"system", "u", "x0", "quantities", "computed", "in_box"}
-    for document, words in (
+    documents = (
         ({**record, "x0": [1, 2]}, "expected a list of 1 numbers"),
         ({**record, "u": [[1, 2]]}, "u"),
         ({**record, "u": 3}, "expected a list of rows"),
@@ -312,7 +283,5 @@ def test_explaining_a_record(tmp_path: Path, capsys: pytest.CaptureFixture[str])
         ({**record, "system": {key: system[key] for key in "AFCG"}}, "expected one with inputs"),
         (system, "got a system, expected a record"),
         ({"first": system, "second": system}, "got a pair of systems, expected a record"),
-    ):
-        file.write_text(json.dumps(document))
-        assert main(["claim", str(claims), "--explain", str(file)]) == 2
-        assert words in capsys.readouterr().err
+    )
+    check_documents(claims, documents, capsys)

@@ -10,7 +10,7 @@ import pytest
 
 from faultspace.proofs.rocq import build as rocq_build
 from faultspace.proofs.rocq import theorems as machine_checked
-from faultspace.proofs.rocq.build import NoRocq, NotProved, compile_file, compiled_theory
+from faultspace.proofs.rocq.build import NotProved, compile_file, compiled_theory
 from faultspace.proofs.rocq.sentences import refusals
 from faultspace.proofs.rocq.sources import THEORY, sources
 from faultspace.proofs.rocq.statements import Headline, read
@@ -261,15 +261,6 @@ def in_part(headlines: list[Headline]) -> list[Headline]:
     """Returns the headlines of every file that are tried, file by file; all of them in a thorough run."""
     by_file = sorted(headlines, key=lambda h: h.file)
     return [h for _, of_file in groupby(by_file, key=lambda h: h.file) for h in [*of_file][:: every()]]
-
-
-@pytest.fixture(scope="module")
-def theory() -> Path:
-    """Provides the compiled theory; skips, with the reason, where Rocq or MathComp is missing."""
-    try:
-        return compiled_theory()
-    except NoRocq as reason:
-        pytest.skip(str(reason))
 
 
 # (a) closed, and what the ledger names

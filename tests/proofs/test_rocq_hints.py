@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from random import Random
 from typing import NamedTuple
@@ -126,6 +127,33 @@ class Questions:
         return [one for one, answer, expected in zip(self.about, given, self.expected, strict=True) if answer != expected]
 
 
+def translations(
+    pairs: Iterable[tuple[Certificate, Certificate]], unseen: Collection[str] = ()
+) -> Iterator[tuple[Certificate, Terms, bool]]:
+    """Yield the second of each two certificates, which the first was changed to, as terms, and whether the checker accepts it.
+
+    What does not parse and what is not covered is passed over, and what the translation rejects is what the checker rejects. So is what is
+    rejected for a change that is no part of the terms, of the kinds `unseen` alone, whose witnesses have what shows a solution.
+    """
+    for original, candidate in pairs:
+        try:
+            checker.verify(candidate)
+            verdict = True
+        except checker.Rejected:
+            verdict = False
+        except checker.Malformed:
+            continue
+        try:
+            terms = translated(candidate)
+        except NotCovered:
+            continue
+        except (checker.Rejected, checker.Malformed):
+            assert not verdict, candidate
+            continue
+        if verdict or candidate["kind"] not in unseen or terms != translated(original):
+            yield candidate, terms, verdict
+
+
 def ask_without_conditions(questions: Questions) -> None:
     """Without one of its conditions the check lets something false pass, which it refuses as it is."""
     for condition, terms in [*weaker_checks(), *weaker_minors()]:
@@ -149,21 +177,9 @@ def ask_about_mutations(questions: Questions, seed: int, count: int) -> tuple[in
     which it gets exact rows, what is true. Returns how many the checker accepts and refuses.
     """
     verdicts = list[bool]()
-    for mutant in mutants(Random(seed), count):
-        try:
-            checker.verify(mutant)
-            verdicts.append(True)
-        except checker.Rejected:
-            verdicts.append(False)
-        except checker.Malformed:
-            continue
-        try:
-            expected = is_true(mutant["statement"]) if "nulling" in mutant["witness"] else verdicts[-1]
-            questions.ask(asked(translated(mutant)), expected, mutant)
-        except NotCovered:
-            verdicts.pop()
-        except (checker.Rejected, checker.Malformed):
-            assert not verdicts[-1], mutant
+    for mutant, terms, verdict in translations((mutant, mutant) for mutant in mutants(Random(seed), count)):
+        verdicts.append(verdict)
+        questions.ask(asked(terms), is_true(mutant["statement"]) if "nulling" in mutant["witness"] else verdict, mutant)
     return verdicts.count(True), verdicts.count(False)
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from docs.tools.premises import instances, together
-from faultspace.proofs.rocq.build import CLOSED, BrokenTheory, NoRocq, NotProved, compile_file, compiled_theory
+from faultspace.proofs.rocq.build import CLOSED, BrokenTheory, NotProved, compile_file
 from faultspace.proofs.rocq.sources import beyond, sources
 from faultspace.proofs.rocq.statements import Headline, read
 from faultspace.proofs.rocq.theorems import proposition
@@ -98,23 +98,15 @@ def question() -> str:
 
 
 @pytest.mark.slow
-def test_instances_mean_what_the_headlines_would_mean_by_them() -> None:
+def test_instances_mean_what_the_headlines_would_mean_by_them(theory: Path) -> None:
     """No word of an instance is another than the headline's: Rocq reads its text with what the file of the headline opens with."""
-    try:
-        theory: Path = compiled_theory()
-    except NoRocq as reason:
-        pytest.skip(str(reason))
     assert compile_file(theory, "Instances.v", question()).strip() == CLOSED
 
 
-def test_what_needs_more_of_mathcomp_is_proved_where_that_is_installed() -> None:
+def test_what_needs_more_of_mathcomp_is_proved_where_that_is_installed(theory: Path) -> None:
     """The files beside the theory state instances, too, and rest on nothing."""
     found = instances(STATEMENTS, BEYOND)
     assert found and {one.file for one in found.values()} == set(BEYOND) and not set(found) & set(stated())
-    try:
-        theory: Path = compiled_theory()
-    except NoRocq as reason:
-        pytest.skip(str(reason))
     try:
         compile_file(theory, "Probe.v", REAL_CLOSED)
     except BrokenTheory:

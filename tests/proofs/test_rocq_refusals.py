@@ -18,7 +18,7 @@ from pathlib import Path
 
 import pytest
 
-from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, compile_file, compiled_theory
+from faultspace.proofs.rocq.build import BrokenTheory, compile_file
 from faultspace.proofs.rocq.locks import kept
 from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.rocq.statements import read
@@ -58,15 +58,6 @@ def copies(names: Iterable[str]) -> str:
             ]
         lines += [f"End In{file.removesuffix('.v')}."]
     return "\n".join(lines) + "\n"
-
-
-@pytest.fixture(scope="module")
-def theory() -> Path:
-    """Provides the compiled theory; skips, with the reason, where Rocq or MathComp is missing."""
-    try:
-        return compiled_theory()
-    except NoRocq as reason:
-        pytest.skip(str(reason))
 
 
 def tried(theory: Path, names: list[str]) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from faultspace.proofs.rocq.build import NoRocq, NotProved, compiled_theory
+from faultspace.proofs.rocq.build import NotProved
 from faultspace.proofs.rocq.sentences import refused, sentences
 from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.rocq.statements import VOCABULARY, read
@@ -137,12 +137,8 @@ def _resolved(folder: Path, file: str) -> list[tuple[int, str, str]]:
 
 @pytest.mark.programs
 @pytest.mark.timeout(900)
-def test_the_words_of_a_statement_are_those_that_rocq_sees_in_it() -> None:
+def test_the_words_of_a_statement_are_those_that_rocq_sees_in_it(theory: Path) -> None:
     """Every name that Rocq resolves to one of ours, in a statement or in a word, is one that the reading reaches."""
-    try:
-        theory = compiled_theory()
-    except NoRocq as reason:
-        pytest.skip(str(reason))
     texts = sources()
     statements, seen = read(texts), 0
     for file in sorted({headline.file for headline in statements.headlines.values()}):

@@ -16,7 +16,7 @@ from faultspace.proofs import verification
 from faultspace.proofs.deciding import Answer, Check
 from faultspace.proofs.rocq import build as rocq_build
 from faultspace.proofs.rocq import theorems as machine_checked
-from faultspace.proofs.rocq.build import DIGESTS, NoRocq, compile_file, compiled_again, compiled_theory
+from faultspace.proofs.rocq.build import DIGESTS, compile_file, compiled_again
 from faultspace.proofs.rocq.locks import held
 from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.rocq.statements import read
@@ -98,12 +98,8 @@ def test_the_locks_are_told_without_rocq_too(monkeypatch: pytest.MonkeyPatch, ca
 
 
 @pytest.fixture
-def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, theory: Path) -> Path:
     """Provides a copy of the compiled theory, in a cache of its own."""
-    try:
-        theory = compiled_theory()
-    except NoRocq as reason:
-        pytest.skip(str(reason))
     monkeypatch.setattr(rocq_build, "user_cache_path", lambda name: tmp_path / name)
     copied = tmp_path / "faultspace" / "rocq" / theory.name
     rocq_build._made_private(copied.parent)

@@ -30,6 +30,23 @@ UNMOVED: dict[str, Any] = {"A": [[0]], "F": [[0]], "C": [[1]], "G": [[0]]}  # a 
 # The words that stood in a file, a system, and what is true of it, which contradicts them.
 SYSTEMS: list[tuple[str, str, dict[str, Any], dict[str, Any]]] = [
     (
+        "decoupling zeros among them",
+        "numeric/audit/RULES.md",
+        {"A": [["1/2"]], "F": [[0]], "C": [[1], [0]], "G": [[0], [1]]},
+        {"invariant_zero_polynomial": ["1"], "left_invertible": True},
+    ),
+    (
+        "a combination of faults whose effect on the outputs is k samples late",
+        GLOSSARY,
+        {
+            "A": [[0, 0, 0, 0], [0, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]],
+            "F": [[1, 0], [0, 1], [0, 0], [0, 0]],
+            "C": [[0, 1, 0, 0], [1, 0, 1, 1]],
+            "G": [[1, 0], [0, 0]],
+        },
+        {"infinite_zero_orders": [0, 3]},
+    ),
+    (
         "every finite zero is an unobservable mode",
         PAPERS,
         {"A": [[1, 0], [0, 0]], "F": [[1], [0]], "C": [[1, 0]], "G": [[1]]},
@@ -279,6 +296,8 @@ def test_words_that_say_more_than_is_known_are_gone(words: str) -> None:
 def test_a_counterexample_need_not_be_of_the_box_nor_a_certificate_of_one_system() -> None:
     (answer,) = fs.claim("lag <= 1", box={"n": [1, 1], "m": [1, 1], "p": [1, 1]}).answers
     assert answer.tried.exhausted and answer.counterexample is not None and answer.counterexample.system.n == 2
+    (answer,) = fs.claim("n <= 1", box={"n": [0, 2], "m": [0, 1], "p": [0, 1]}, most=3).answers
+    assert answer.counterexample is not None and answer.counterexample.system.n == 2 and "outside the box" not in answer.summary()
     assert "the smallest one of a stated box of systems is shown" not in text(GLOSSARY)
     about = [json.loads(file.read_text("utf-8"))["statement"] for file in (ROOT / "proofs/certificates").glob("behaviour-equality-*.json")]
     assert about and all({"first", "second"} <= set(one) for one in about)

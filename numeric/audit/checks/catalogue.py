@@ -1,6 +1,6 @@
 """This collects every check that there is, and the choice among them.
 
-MODULES      the modules that have checks, in the order in which they are asked: what a first call leaves behind is looked at first
+GENERATORS   what yields checks, in the order in which they are asked: what a first call leaves behind is looked at first
 all_checks   every check, in that order; the kinds of trouble, drawn from a seed, come last
 quick_checks part of them, by a rule
 chosen       the checks of some functions, or those of them that are named
@@ -13,15 +13,12 @@ from difflib import get_close_matches
 
 from ....base.errors import InvalidData
 from ..making.kinds_of_trouble import KINDS
-from ..names import named, patterned
-from ..records import Check, Demand
+from ..records import Check, Demand, named, patterned
 from ..vectors.trouble import SEED
 from . import (
-    consistency,
     edges,
     excitation,
     faults,
-    forms,
     growth,
     identification,
     laws,
@@ -29,35 +26,33 @@ from . import (
     misfits,
     refusals,
     sequences,
-    silence,
     structure,
     surroundings,
     trouble,
 )
 
-MODULES = (
-    surroundings,
-    identification,
-    consistency,
-    faults,
-    excitation,
-    structure,
-    edges,
-    refusals,
-    misfits,
-    silence,
-    manners,
-    forms,
-    sequences,
-    growth,
-    laws,
+GENERATORS = (
+    surroundings.checks,
+    identification.checks,
+    faults.checks,
+    excitation.checks,
+    structure.checks,
+    edges.checks,
+    refusals.checks,
+    misfits.checks,
+    edges.of_silence,
+    manners.checks,
+    trouble.of_forms,
+    sequences.checks,
+    growth.checks,
+    laws.checks,
 )
 
 
 def all_checks(seed: int = SEED) -> Iterator[Check]:
     """This yields every check, those of kinds of trouble on vectors drawn from the seed."""
-    for module in MODULES:
-        yield from module.checks()
+    for generator in GENERATORS:
+        yield from generator()
     yield from trouble.checks(seed)
 
 

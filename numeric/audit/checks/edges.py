@@ -4,13 +4,14 @@ checks            window-ranks-few-windows, window-ranks-shortest-record, fault-
                   due although there is hardly more than nothing; window-ranks-no-fault, fault-signal-no-fault, refuses-no-fault: where no
                   fault acts; fault-space-wrong-number: more or fewer faults told than act; fault-space-as-many-as-outputs: where there is
                   no law; refuses-impossible-number: sizes below what any system has
+of_silence        no-fault-told: `fault_dimension` of free responses; no-fault-of-record: `count_faults` of outputs that the input moves
 first, shortest   a vector's first samples with the bound of so short a record, a residual with its ranks
 free_response     a residual without a fault, its system and its first state
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache, partial
 from typing import Any
@@ -31,7 +32,7 @@ from ..vectors.fault_vectors import FaultVector, samples_that_settle
 from ..vectors.rationals import floats, fractions, matrix
 from ..vectors.shipped_vectors import shipped
 from .faults import ROUNDED, compared_count, ranks_off, signal_off, spaces_off
-from .laws import LOUD, record
+from .laws import LOUD, nothing_acts, record
 from .manners import copies
 from .refusals import refuses
 
@@ -210,3 +211,29 @@ def _impossible(vector: FaultVector) -> Iterator[Check]:
         ("identified_fault_space", "faults-below-0", (*of_record, noisy.system.n, BELOW)),
     ):
         yield refuses("refuses-impossible-number", function, name, effect, partial(copies, arguments))
+
+
+# -- silence ---------------------------------------------------------------------------------------------------------------------------
+
+
+def of_silence() -> Iterator[Check]:
+    """Yield the checks of records in which no fault acts: what they do not show must not be told.
+
+    The answer 0 is right, and so is none, since a fault that does not excite looks the same; a number above 0 is made up.
+    """
+    for name in FREE:
+        yield _none("no-fault-told", "fault_dimension", name, partial(_free_response, name))
+    for vector in shipped("noisy")[:1]:
+        for name, noise in (("exact", 0.0), ("noisy", LOUD)):
+            yield _none("no-fault-of-record", "count_faults", f"{vector.slug}-{name}", partial(nothing_acts, vector, noise))
+
+
+def _free_response(name: str) -> tuple[Any, ...]:
+    return (np.ascontiguousarray(floats(free_response(name)[0])),)
+
+
+def _none(slug: str, function: str, vector: str, arguments: Callable[[], tuple[Any, ...]]) -> Check:
+    def compare(called: Function) -> Iterator[Measurement]:
+        yield compared_count("n_v", called(*arguments()), 0)
+
+    return Check(slug, function, vector, "proposition-3", "a fault is reported where none acts", Severity.SILENT, or_refused(compare))

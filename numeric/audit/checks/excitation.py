@@ -18,8 +18,7 @@ from faultspace.exact.structure.signals import simulate
 from faultspace.exact.system.systems import ResidualSystem
 
 from ..records import Check, Demand, Function, Measurement, Severity
-from ..vectors.fault_vectors import UnexcitingVector
-from ..vectors.inputs import alike_inputs, unexciting_inputs
+from ..vectors.fault_vectors import UnexcitingVector, alike_inputs, unexciting_inputs
 from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import IdentificationVector, shipped
 from .faults import compared_count, ranks_off

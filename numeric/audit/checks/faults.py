@@ -1,6 +1,8 @@
 """Check residuals, window ranks, the number of faults, the fault space and the fault signal, on each record in all views.
 
-checks           what is asked of every function, as given and in the views of SUFFIXES, each against the exact answer of its view
+checks           what is asked of every function, as given and in the views of SUFFIXES, each against the exact answer of its view; the
+                 number of faults under white noise whose Hankel matrices are, certified, far smaller than the least singular value of the
+                 exact ones: it is there to be seen, and no threshold of rounding shows it
 spaces_off       dimension and two-sided distance of a fault space
 compared_count   a number of faults against the one that is due
 as_number        n_v as a number
@@ -26,9 +28,9 @@ from ....base.sheets import counted
 from ...method.space.distances import compare_subspaces
 from ..records import Broken, Check, Demand, Function, Measurement, Severity, Sides
 from ..vectors.exact_comparison import lifted
-from ..vectors.fault_vectors import FaultVector, channel_units
-from ..vectors.inputs import LONG_WINDOW, with_input
+from ..vectors.fault_vectors import LONG_WINDOW, FaultVector, channel_units, with_input
 from ..vectors.rationals import floats, fractions, matrix, scaled
+from ..vectors.recipe_vectors import NoisyVector
 from ..vectors.shipped_vectors import shipped
 
 # Suffix of the slug, what the answer then depends on, the views compared.
@@ -51,6 +53,8 @@ Measure = Callable[[FaultVector, Function], Iterator[Measurement]]
 
 def checks() -> Iterator[Check]:
     """Yield all checks of the module."""
+    for noisy in shipped("noisy"):
+        yield _noisy(noisy)
     for vector in shipped("faults"):
         effect = "the residual still holds the response to the input: input and fault cannot be told apart"
         yield from _in_views("residual-free-of-input", "residual", vector, "proposition-1", effect, residual_off)
@@ -205,3 +209,11 @@ def signal_off(vector: FaultVector, function: Function) -> Iterator[Measurement]
     off = floats(answer - vector.v)[: vector.trusted]
     sides = Sides("signal", fractions(answer)[: vector.trusted], fractions(vector.v)[: vector.trusted], bound)
     yield Measurement("v", float(np.linalg.norm(off)), bound, sides)
+
+
+def _noisy(vector: NoisyVector) -> Check:
+    def measure(function: Function) -> Iterator[Measurement]:
+        yield compared_count("n_v", function(vector.record()), vector.system.m)
+
+    effect = "a wrong number of faults wherever there is any noise, were it a thousandth"
+    return Check("fault-dimension-noisy", "fault_dimension", vector.slug, "proposition-3", effect, Severity.SILENT, measure)

@@ -1,7 +1,8 @@
 """Checks of `identify` on records without noise and fault: what no state basis changes, each within its own bound.
 
 checks      exact recovery; the same with channels in another order, in other units, at other sizes; from parts of the record; from a
-            long window
+            long window. A coloured fault independent of the input: past outputs as instruments show their bias, which stays however long
+            the record; the limits are exact, and the bound is half the bias, so that the question is which of two limits is nearer
 models_off  the measurements that compare (A, B, C, D) with a vector;   as_it_is: in its own units and order of channels
 """
 
@@ -20,6 +21,7 @@ from ....base.arrays import Array
 from ..records import Broken, Check, Function, Measurement, Severity, Sides
 from ..vectors.exact_comparison import distances, lifted, markov, matched, poles, polynomial_from_the_top, transfer
 from ..vectors.rationals import floats, fractions, scaled
+from ..vectors.recipe_vectors import ConsistencyVector
 from ..vectors.shipped_vectors import POINTS, IdentificationVector, shipped
 
 SCALES = (-12, -6, 6)  # powers of ten
@@ -52,6 +54,8 @@ def checks() -> Iterator[Check]:
         if "first-half" in vector.parts:
             effect = "the answer depends on which half of the record is read"
             yield _from_parts("split-data", effect, vector, ["first-half", "second-half"])
+    for coloured in shipped("consistency"):
+        yield _coloured(coloured)
 
 
 def _recovery(
@@ -165,3 +169,17 @@ def _worst(quantity: str, got: Array, bound: Array, sides: Sides) -> Measurement
     place = np.unravel_index(int(np.argmax(got / np.maximum(bound, np.finfo(float).tiny))), got.shape)
     indices = (*[0] * (np.ndim(sides.bounds) - got.ndim), *map(int, place))
     return Measurement(quantity, float(got[place]), float(bound[place]), replace(sides, place=indices))
+
+
+def _coloured(vector: ConsistencyVector) -> Check:
+    def measure(function: Function) -> Iterator[Measurement]:
+        y, u = vector.record()
+        n, n_u, p = vector.system.residual.n, vector.system.nu, vector.system.residual.p
+        A, *_ = matrices(function(y, u, n, vector.block_rows), n, n_u, p)
+        got = poles(A)
+        places, off = matched(got, vector.poles)
+        sides = Sides("eigenvalues", [got[j] for j in places], list(vector.poles), [vector.bound] * n)
+        yield Measurement("poles", float(np.max(off)), vector.bound, sides)
+
+    effect = "under a fault with memory poles off by more than half the bias of past outputs as instruments"
+    return Check("consistent-under-coloured-fault", "identify", vector.slug, "past-outputs", effect, Severity.SILENT, measure, nearness=1.0)

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..records import Check, Function, Measurement, Severity, inside
-from ..vectors.inputs import with_input
+from ..vectors.fault_vectors import with_input
 from ..vectors.shipped_vectors import floats, shipped
 
 

@@ -21,10 +21,10 @@ import numpy as np
 
 from ....base.arrays import Array
 from ...method.model.models import StateSpaceModel
+from ..adapter import ARGUMENTS
 from ..making.model_bounds import bounded
 from ..records import Check, Demand, Function, Measurement, Severity, or_refused
-from ..signatures import ARGUMENTS
-from ..vectors.inputs import with_input
+from ..vectors.fault_vectors import with_input
 from ..vectors.rationals import floats, matrix, signs
 from ..vectors.shipped_vectors import IdentificationVector, shipped
 from .growth import FORGETTING, LENGTHS, model_off, question

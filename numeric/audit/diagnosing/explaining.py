@@ -13,18 +13,17 @@ import numpy as np
 
 from ....base.threads import one_thread
 from ..records import Check, Demand, Function, Measurement
-from . import counts, models, residuals, signals, spaces, structures
-from .recording import Recorder
-from .suspicions import Case, Suspicion
+from . import counts, models, signals, spaces
+from .suspicions import Case, Recorder, Suspicion
 
 SUSPICIONS: Mapping[str, Sequence[Suspicion]] = {
     "identify": models.SUSPICIONS,
-    "residual": residuals.SUSPICIONS,
+    "residual": signals.RESIDUAL,
     "window_ranks": counts.RANKS,
     "fault_dimension": counts.OF_RESIDUAL,
     "fault_space": spaces.SUSPICIONS,
-    "reconstruct": signals.SUSPICIONS,
-    "structure": structures.SUSPICIONS,
+    "reconstruct": signals.SIGNAL,
+    "structure": counts.OF_STRUCTURE,
     "count_faults": counts.OF_RECORD,
     "identified_fault_space": spaces.OF_RECORD,
 }

@@ -17,8 +17,7 @@ from ....base.arrays import Array
 from ...method.model.models import StateSpaceModel
 from .. import reference
 from ..records import Function
-from .scales import sizes, to_one
-from .suspicions import SAME, Suspicion, answer_changed, asked_otherwise, seen
+from .suspicions import SAME, Suspicion, answer_changed, asked_otherwise, misled_by_sizes, seen, sizes, to_one
 
 MOST_CHANNELS = 4  # of which all orders are tried: 23 of them
 LONGEST = 2000  # samples to which matrices are fitted
@@ -65,14 +64,6 @@ def _left_out(answer: Any, y: Array, u: Array, *_: Any) -> Any:
     return None if np.any(_arrays(answer)[3]) else fitted(answer, y, u, feedthrough_alone=True)
 
 
-def _wrong_feedthrough(answer: Any, y: Array, u: Array, *_: Any) -> Any:
-    return fitted(answer, y, u, feedthrough_alone=True)
-
-
-def _wrong_inputs(answer: Any, y: Array, u: Array, *_: Any) -> Any:
-    return fitted(answer, y, u, feedthrough_alone=False)
-
-
 def orders(count: int) -> list[list[int]]:
     """Return every order of so many channels but the one that they have; none for more than MOST_CHANNELS."""
     return [list(order) for order in permutations(range(count))][1:] if 1 < count <= MOST_CHANNELS else []
@@ -85,12 +76,12 @@ def _confirmed_by_any(words: str, many: Callable[[int], Iterator[Suspicion]], ax
 
 def _inputs_permuted(count: int) -> Iterator[Suspicion]:
     for order in orders(count):
-        yield _changed("", lambda A, B, C, D, order=order: (A, B[:, order], C, D[:, order]))  # type: ignore[misc]
+        yield answer_changed("", lambda answer, *_, order=order: [one[:, order] if j % 2 else one for j, one in enumerate(_arrays(answer))])
 
 
 def _outputs_permuted(count: int) -> Iterator[Suspicion]:
     for order in orders(count):
-        yield _changed("", lambda A, B, C, D, order=order: (A, B, C[order], D[order]))  # type: ignore[misc]
+        yield answer_changed("", lambda answer, *_, order=order: [one[order] if j > 1 else one for j, one in enumerate(_arrays(answer))])
 
 
 def _each_channel_to_one(function: Function, y: Array, u: Array, *rest: Any) -> Any:
@@ -140,13 +131,16 @@ SUSPICIONS = (
     _confirmed_by_any("Input channels are permuted: in another order of the columns of B and D the answer passes.", _inputs_permuted, 1),
     _confirmed_by_any("Output channels are permuted: in another order of the rows of C and D the answer passes.", _outputs_permuted, 0),
     seen("All numbers are of single precision.", lambda answer, *_: _single(_arrays(answer))),
-    answer_changed("A, B and C are right and D is wrong: with D fitted to the record the answer passes.", _wrong_feedthrough),
-    answer_changed("A and C are right and B or D is wrong: with both fitted to the record the answer passes.", _wrong_inputs),
-    asked_otherwise("The initial state is ignored: asked of the same system from rest, the function passes.", _from_rest),
-    asked_otherwise("A threshold is absolute: with the whole record brought to size one first, the function passes.", _record_to_one),
-    asked_otherwise(
-        "Channels in unlike units mislead it: with each channel brought to size one first, the function passes.", _each_channel_to_one
+    answer_changed(
+        "A, B and C are right and D is wrong: with D fitted to the record the answer passes.",
+        lambda answer, y, u, *_: fitted(answer, y, u, True),
     ),
+    answer_changed(
+        "A and C are right and B or D is wrong: with both fitted to the record the answer passes.",
+        lambda answer, y, u, *_: fitted(answer, y, u, False),
+    ),
+    asked_otherwise("The initial state is ignored: asked of the same system from rest, the function passes.", _from_rest),
+    *misled_by_sizes(_record_to_one, _each_channel_to_one),
     Suspicion(
         "Means are subtracted: a constant added to the outputs does not change the answer.",
         lambda case: all(call.answer is not None and _blind_to_means(case.function, *call.arguments) for call in case.calls),

@@ -1,10 +1,11 @@
-"""Suspicions of `reconstruct`.
+"""Suspicions of `residual`, whose answer may be off by a free response of the model, and of `reconstruct`.
 
-SUSPICIONS   in the order in which they are tested
+RESIDUAL, SIGNAL   in the order in which they are tested
 """
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,25 +14,61 @@ from ....base.arrays import Array
 from ...method.model.models import StateSpaceModel
 from ..records import Function
 from .models import orders
-from .scales import sizes, to_one
-from .suspicions import Case, Suspicion, answer_changed, asked_otherwise, seen
+from .suspicions import SAME, Case, Suspicion, answer_changed, asked_otherwise, misled_by_sizes, seen, sizes, to_one
 
 
 def _array(answer: Any) -> Array:
     return np.asarray(answer, dtype=float)
 
 
-def _moved(samples: int) -> Any:
-    def change(answer: Any, *_: Any) -> Array:
-        v = _array(answer)
-        moved = np.zeros_like(v)
-        if samples > 0:
-            moved[samples:] = v[:-samples]
-        else:
-            moved[:samples] = v[-samples:]
-        return moved
+def _shifted(signal: Any, samples: int) -> Array:
+    given = _array(signal)
+    moved = np.zeros_like(given)
+    if samples > 0:
+        moved[samples:] = given[:-samples]
+    else:
+        moved[:samples] = given[-samples:]
+    return moved
 
-    return change
+
+def _moved(r: Any, y: Array, u: Array, *system: Array, samples: int) -> bool:
+    """This tells whether y - r is the response from rest, moved by so many samples, wherever both have one."""
+    response = StateSpaceModel(*system).simulate(u)
+    subtracted, due = (one[1:-1] for one in (y - _array(r), _shifted(response, samples)))
+    return bool(np.any(due)) and np.allclose(subtracted, due, rtol=0.0, atol=SAME * np.max(np.abs(due)))
+
+
+def _residual_of_one(function: Function, y: Array, u: Array, A: Array, B: Array, C: Array, D: Array) -> Any:
+    size, inputs = to_one(y), to_one(u)
+    return _array(function(y / size, u / inputs, A, B * inputs / size, C, D * inputs / size)) * size
+
+
+def _residual_of_ones(function: Function, y: Array, u: Array, A: Array, B: Array, C: Array, D: Array) -> Any:
+    size = sizes(y)
+    return _array(function(y / size, u, A, B, C / size[:, None], D / size[:, None])) * size
+
+
+RESIDUAL = (
+    answer_changed("The residual has the wrong sign: with -r the answer passes.", lambda r, *_: -_array(r)),
+    answer_changed("The residual is transposed: it should have a row a sample.", lambda r, *_: _array(r).T),
+    answer_changed(
+        "The response is added where it is to be subtracted: with 2 y - r the answer passes.", lambda r, y, *_: 2 * y - _array(r)
+    ),
+    answer_changed("D is ignored: less D u the answer passes.", lambda r, y, u, A, B, C, D: _array(r) - u @ D.T),
+    answer_changed("D has the wrong sign: less 2 D u the answer passes.", lambda r, y, u, A, B, C, D: _array(r) - 2 * u @ D.T),
+    asked_otherwise("A is used transposed: asked with A', the function passes.", lambda f, y, u, A, *rest: f(y, u, A.T.copy(), *rest)),
+    asked_otherwise(
+        "Input channels are permuted: asked with them in reverse order, the function passes.",
+        lambda f, y, u, A, *rest: f(y, u[:, ::-1].copy(), A, *rest) if u.shape[1] > 1 else None,
+    ),
+    answer_changed(
+        "Output channels are permuted: in reverse order the answer passes.", lambda r, y, *_: _array(r)[:, ::-1] if y.shape[1] > 1 else None
+    ),
+    seen("The response is one sample early: what is subtracted is the response of the next sample.", partial(_moved, samples=-1)),
+    seen("The response is one sample late: what is subtracted is the response of the sample before.", partial(_moved, samples=1)),
+    seen("Nothing is subtracted: the answer is y.", lambda r, y, *_: np.array_equal(_array(r), y)),
+    *misled_by_sizes(_residual_of_one, _residual_of_ones, "output"),
+)
 
 
 def _permuted(case: Case) -> bool:
@@ -45,23 +82,19 @@ def _from_rest(function: Function, r: Array, A: Array, F: Array, C: Array, G: Ar
     return function(r - free, A, F, C, G, 0 * x0) if np.any(x0) else None
 
 
-def _with_transposed(function: Function, r: Array, A: Array, *rest: Any) -> Any:
-    return function(r, A.T.copy(), *rest)
-
-
-def _record_to_one(function: Function, r: Array, A: Array, F: Array, C: Array, G: Array, x0: Array) -> Any:
+def _signal_of_one(function: Function, r: Array, A: Array, F: Array, C: Array, G: Array, x0: Array) -> Any:
     size = to_one(r)
     return _array(function(r / size, A, F, C, G, x0 / size)) * size
 
 
-def _each_channel_to_one(function: Function, r: Array, A: Array, F: Array, C: Array, G: Array, x0: Array) -> Any:
+def _signal_of_ones(function: Function, r: Array, A: Array, F: Array, C: Array, G: Array, x0: Array) -> Any:
     size = sizes(r)
     return function(r / size, A, F, C / size[:, None], G / size[:, None], x0)
 
 
 def _factor(case: Case) -> bool:
     """This tells whether one number times the answer is the truth."""
-    sides = next((one.sides for one in case.measured if one.sides is not None and one.sides.of == "signal"), None)
+    sides = case.sides("signal")
     if sides is None:
         return False
     v, truth = (np.array([[float(x) for x in row] for row in side]) for side in (sides.answer, sides.truth))
@@ -70,18 +103,15 @@ def _factor(case: Case) -> bool:
     return bool(factor) and answer_changed("", lambda answer, *_: _array(answer) * factor).confirmed(case)
 
 
-SUSPICIONS = (
+SIGNAL = (
     answer_changed("The signal has the wrong sign: with -v the answer passes.", lambda v, *_: -_array(v)),
     answer_changed("The signal is transposed: it should have a row a sample.", lambda v, *_: _array(v).T),
     Suspicion("Fault channels are permuted: in another order the answer passes.", _permuted),
-    answer_changed("The signal is one sample late: moved one sample forward it passes.", _moved(-1)),
-    answer_changed("The signal is one sample early: moved one sample back it passes.", _moved(1)),
+    answer_changed("The signal is one sample late: moved one sample forward it passes.", lambda v, *_: _shifted(v, -1)),
+    answer_changed("The signal is one sample early: moved one sample back it passes.", lambda v, *_: _shifted(v, 1)),
     asked_otherwise("The initial state is ignored: with its response taken off the record, the function passes.", _from_rest),
-    asked_otherwise("A is used transposed: asked with A', the function passes.", _with_transposed),
+    asked_otherwise("A is used transposed: asked with A', the function passes.", lambda f, r, A, *rest: f(r, A.T.copy(), *rest)),
     Suspicion("The signal is off by one factor: times that it passes.", _factor),
-    asked_otherwise("A threshold is absolute: with the whole record brought to size one first, the function passes.", _record_to_one),
-    asked_otherwise(
-        "Channels in unlike units mislead it: with each output brought to size one first, the function passes.", _each_channel_to_one
-    ),
+    *misled_by_sizes(_signal_of_one, _signal_of_ones, "output"),
     seen("The signal is zero everywhere.", lambda v, *_: not np.any(_array(v))),
 )

@@ -5,14 +5,14 @@ SUSPICIONS, OF_RECORD   in the order in which they are tested
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from ....base.arrays import Array
 from ..records import Function
-from .scales import sizes, to_one
-from .suspicions import SAME, Case, Suspicion, answer_changed, asked_otherwise
+from .suspicions import SAME, Case, Suspicion, answer_changed, asked_otherwise, misled_by_sizes, sizes, to_one
 
 
 def _array(answer: Any) -> Array:
@@ -24,17 +24,13 @@ def _parts(answer: Any, A: Array) -> tuple[Array, Array]:
     return columns[: len(A)], columns[len(A) :]
 
 
-def _joined(f: Array, g: Array) -> Array:
-    return np.vstack([f, g])
-
-
 def _turned(answer: Any, r: Array, A: Array, C: Array, *_: Any) -> Array:
     columns = _array(answer)
-    return _joined(columns[len(C) :], columns[: len(C)])
+    return np.vstack([columns[len(C) :], columns[: len(C)]])
 
 
 def _of_parts(change: Any) -> Any:
-    return lambda answer, r, A, C, *rest: _joined(*change(*_parts(answer, A), A))
+    return lambda answer, r, A, C, *rest: np.vstack(change(*_parts(answer, A), A))
 
 
 def _record_to_one(function: Function, r: Array, *rest: Any) -> Any:
@@ -44,19 +40,16 @@ def _record_to_one(function: Function, r: Array, *rest: Any) -> Any:
 def _each_channel_to_one(function: Function, r: Array, A: Array, C: Array, *rest: Any) -> Any:
     size = sizes(r)
     f, g = _parts(function(r / size, A, C / size[:, None], *rest), A)
-    return _joined(f, g * size[:, None])
+    return np.vstack([f, g * size[:, None]])
 
 
 def _other_window(rows: int) -> Any:
-    def ask(function: Function, r: Array, A: Array, C: Array, n_v: int, block_rows: int) -> Any:
-        return function(r, A, C, n_v, block_rows + rows)
-
-    return ask
+    return lambda function, r, A, C, n_v, block_rows: function(r, A, C, n_v, block_rows + rows)
 
 
-def _contained(case: Case, larger: bool) -> bool:
+def _contained(larger: bool, case: Case) -> bool:
     """This tells whether the answer lies in the true space without filling it, or holds it and more (`larger`)."""
-    sides = next((one.sides for one in case.measured if one.sides is not None and one.sides.of == "space"), None)
+    sides = case.sides("space")
     if sides is None:
         return False
     answer, truth = (np.array([[float(x) for x in row] for row in side]) for side in (sides.answer, sides.truth))
@@ -82,12 +75,6 @@ def _answered_columns(function: Any) -> Any:
 
 _SIGNS = "The parts f and g have unlike signs: with -g the answer passes."
 _ORDER = "The columns are [g; f] where they are to be [f; g]: turned round, the answer passes."
-_LEFT_OUT = Suspicion(
-    "True columns are left out: the answer lies in the space, whose dimension is larger.", lambda case: _contained(case, False)
-)
-_TOO_LARGE = Suspicion(
-    "The space is too large: it holds all true columns, and others that explain nothing.", lambda case: _contained(case, True)
-)
 
 SUSPICIONS = (
     answer_changed(_ORDER, _turned),
@@ -100,22 +87,16 @@ SUSPICIONS = (
     asked_otherwise("A is used transposed: asked with A', the function passes.", lambda f, r, A, *rest: f(r, A.T.copy(), *rest)),
     answer_changed(
         "The output parts g are permuted: in reverse order the answer passes.",
-        lambda answer, r, A, C, *_: _joined(_parts(answer, A)[0], _parts(answer, A)[1][::-1]) if len(C) > 1 else None,
+        lambda answer, r, A, C, *_: np.vstack([_parts(answer, A)[0], _parts(answer, A)[1][::-1]]) if len(C) > 1 else None,
     ),
-    asked_otherwise("A threshold is absolute: with the whole record brought to size one first, the function passes.", _record_to_one),
-    asked_otherwise(
-        "Channels in unlike units mislead it: with each channel brought to size one first, the function passes.", _each_channel_to_one
-    ),
+    *misled_by_sizes(_record_to_one, _each_channel_to_one),
     asked_otherwise("The window is one block row too short: asked with one more, the function passes.", _other_window(1)),
     asked_otherwise("The window is one block row too long: asked with one less, the function passes.", _other_window(-1)),
-    _LEFT_OUT,
-    _TOO_LARGE,
+    Suspicion("True columns are left out: the answer lies in the space, whose dimension is larger.", partial(_contained, False)),
+    Suspicion("The space is too large: it holds all true columns, and others that explain nothing.", partial(_contained, True)),
 )
 OF_RECORD = (
     answer_changed(_ORDER, _answered_columns(_turned)),
     answer_changed(_SIGNS, _answered_columns(_of_parts(lambda f, g, A: (f, -g)))),
-    asked_otherwise(
-        "A threshold is absolute: with the whole record brought to size one first, the function passes.",
-        lambda function, y, u, *rest: function(y / to_one(y), u / to_one(u), *rest),
-    ),
+    *misled_by_sizes(lambda function, y, u, *rest: function(y / to_one(y), u / to_one(u), *rest)),
 )

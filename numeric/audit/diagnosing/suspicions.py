@@ -5,20 +5,24 @@ Case             a failed check, the function, the calls made and what they meas
 answer_changed   suspects the answer: put right, it passes
 asked_otherwise  suspects how the function takes its arguments: asked otherwise, it passes
 seen             what can be read from the answers: a relation that holds exactly, and that no right answer of the check has
+misled_by_sizes  suspects a threshold, or units, where a record brought to size one gets the right answer
 holds            whether a check passes
 SAME             how near two numbers are that are called equal
+sizes, to_one    the root mean square of each channel, of the largest: brought to size one, a record is out of an absolute threshold's reach
+Call, Recorder   arguments and answer of one call;   a function that keeps its calls, to be made again, put right, or written down
 """
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ..records import Check, Function, Measurement
-from .recording import Call
+from ....base.arrays import Array
+from ..records import Check, Function, Measurement, Refused, Sides
 
 SAME = 1e-6
 """Of the size of an answer: two numbers nearer than that are taken for the same where no bound is at hand. It is far above rounding and far
@@ -35,6 +39,10 @@ class Case:
     function: Function
     calls: Sequence[Call]
     measured: Sequence[Measurement]
+
+    def sides(self, of: str) -> Sides | None:
+        """Return the first answer of that kind beside the truth."""
+        return next((one.sides for one in self.measured if one.sides is not None and one.sides.of == of), None)
 
 
 @dataclass(frozen=True)
@@ -84,6 +92,13 @@ def asked_otherwise(words: str, ask: Callable[..., Any]) -> Suspicion:
     return Suspicion(words, confirmed)
 
 
+def misled_by_sizes(whole: Callable[..., Any], each: Callable[..., Any] | None = None, channel: str = "channel") -> tuple[Suspicion, ...]:
+    """Suspect an absolute threshold, which `whole(function, *arguments)` does not reach, and unlike units, which `each` makes alike."""
+    words = "A threshold is absolute: with the whole record brought to size one first, the function passes."
+    units = f"Channels in unlike units mislead it: with each {channel} brought to size one first, the function passes."
+    return tuple(asked_otherwise(said, ask) for said, ask in ((words, whole), (units, each)) if ask is not None)
+
+
 def seen(words: str, relation: Callable[..., bool]) -> Suspicion:
     """Suspect by what every answer shows. `relation(answer, *arguments)` tells whether one does."""
 
@@ -95,3 +110,59 @@ def seen(words: str, relation: Callable[..., bool]) -> Suspicion:
             return False
 
     return Suspicion(words, confirmed)
+
+
+@dataclass(frozen=True)
+class Call:
+    """`refused` is the reason of a refusal, None where there is an answer."""
+
+    arguments: tuple[Any, ...]
+    answer: Any
+    refused: str | None = None
+
+
+class Recorder:
+    """It calls the function with copies of the arguments' values kept as they were before the call."""
+
+    def __init__(self, function: Function) -> None:
+        self._function = function
+        self.calls: list[Call] = []
+
+    def __call__(self, *arguments: Any) -> Any:
+        kept = tuple(map(_as_given, arguments))
+        try:
+            answer = self._function(*arguments)
+        except Refused as refusal:
+            self.calls.append(Call(kept, None, str(refusal)))
+            raise
+        self.calls.append(Call(kept, _kept(answer)))
+        return answer
+
+
+def _as_given(argument: Any) -> Any:
+    """Return a copy, read-only where the argument is: a copy forgets that."""
+    found = copy.deepcopy(argument)
+    if isinstance(argument, np.ndarray):
+        found.flags.writeable = argument.flags.writeable
+    return found
+
+
+def _kept(answer: Any) -> Any:
+    """Return a copy, where there can be one."""
+    try:
+        return copy.deepcopy(answer)
+    except Exception:  # an answer may be anything, a generator for example
+        return answer
+
+
+def sizes(signal: Array) -> Array:
+    """There is a number for each channel of the signal (N, p)."""
+    largest = np.max(np.abs(signal), axis=0, initial=0.0)
+    largest[~(largest > 0)] = 1.0
+    found: Array = largest * np.sqrt(np.mean((signal / largest) ** 2, axis=0))
+    return found
+
+
+def to_one(signal: Array) -> float:
+    """Return one number for all channels: the root mean square of the largest."""
+    return float(np.max(sizes(signal), initial=0.0)) or 1.0

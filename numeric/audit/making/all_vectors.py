@@ -43,10 +43,10 @@ from ..vectors.recipe_vectors import ConsistencyVector
 from ..vectors.shipped_vectors import FORMAT, KINDS, IdentificationVector, StructureVector
 from ..vectors.trouble import SEED
 from ..vectors.trouble import document as trouble_document
-from .all_troubles import drawn_troubles
-from .drawing import drawn, stable, upward
 from .fault_records import fault_vectors, noisy_vectors, unexciting_vectors
 from .model_bounds import bounded, model_bounds
+from .planting import drawn, stable, upward
+from .trouble_vectors import drawn_troubles
 
 # -- identification -----------------------------------------------------------------------------------------------------------------
 

@@ -6,6 +6,13 @@ unexciting_vectors   a constant, a sine, two faults in proportion
 noisy_vectors        white noise far below the least singular value
 singular_values      certified
 enclosed_values      the same from the square of the matrix
+conditions_gap       (below the least nonzero singular value of the conditions, above the norm of the response), certified
+conditions_clear     whether it stands CLEAR above what rounding makes of it, as those of the windows do
+
+Rows N, orthonormal, vanish on the windows of s block rows of r. A column [f; g] explains r where N, shifted by each number of samples
+within the window, vanishes on its response [0 I; C 0; C A 0; ..] [f; g]: these are the conditions, and the space is their null space. Who
+solves them decides a rank twice, that of the windows, which gives N, and that of the conditions. Rounding of the samples turns N by its
+norm over the least singular value of the windows at most, and so moves a condition by that times the norm of the response.
 """
 
 from __future__ import annotations
@@ -18,11 +25,11 @@ from random import Random
 import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
-from faultspace.exact.algebra.matrices import Matrix, left_null_space, rank
+from faultspace.exact.algebra.matrices import Matrix, beside, left_null_space, rank, solve_left, stacked
 from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.signals import excitation_matrix, hankel, simulate
 from faultspace.exact.system.systems import ResidualSystem
-from faultspace.exact.system.windows import window_matrix
+from faultspace.exact.system.windows import observability_matrix, window_matrix
 
 from ...method.model.compression import EPS
 from ...method.model.models import StateSpaceModel
@@ -31,13 +38,25 @@ from ...method.signal.reconstruction import reconstruct_fault
 from ...method.space.by_ranks import noise_free_fault_space
 from ...study.conditioning import SMALL
 from ...study.residual_conditioning import fault_signal_error, fitted_state_error
-from ..vectors.fault_vectors import AS_GIVEN, HALF, VIEWS, FaultVector, FaultView, UnexcitingVector, channel_units, in_channel_units
-from ..vectors.inputs import LONG_WINDOW, unexciting_inputs, with_input
+from ..vectors.fault_vectors import (
+    AS_GIVEN,
+    CLEAR,
+    HALF,
+    LONG_WINDOW,
+    VIEWS,
+    FaultVector,
+    FaultView,
+    UnexcitingVector,
+    channel_units,
+    in_channel_units,
+    unexciting_inputs,
+    with_input,
+)
 from ..vectors.rationals import floats, fractions, matrix, scaled
 from ..vectors.recipe_vectors import NoisyVector
-from .drawing import TELLING, drawn, stable, upward
+from .planting import TELLING, drawn, stable, upward
 
-CLEAR = 10.0  # how far above the noise's norm the least singular value must be, both certified
+ABOVE = 10.0  # how far above the noise's norm the least singular value must be, both certified
 
 
 def fault_systems() -> list[tuple[str, ResidualSystem]]:
@@ -135,7 +154,7 @@ def space_bound(r: Matrix, system: ResidualSystem, block_rows: int) -> float:
 
 
 def residual_bound(r: Matrix, system: ResidualSystem, size: Fraction) -> float:
-    """Return the bound for y = r + the response from rest to u = size, -size, ... with B = F, D = G (see `vectors.inputs.with_input`), in
+    """Return the bound for y = r + the response from rest to u = size, -size, ... with B = F, D = G (see `with_input`), in
     channel units: what is computed for an output has its unit as a factor, whoever computes it.
     """
     units = channel_units(r)
@@ -249,7 +268,7 @@ def _noisy(slug: str, small: ResidualSystem) -> NoisyVector:
     known = analyze(system).kernel
     ranks = tuple(known.rank(s) for s in range(1, windows + 1))
     gaps = tuple((low, _noise_norm(blank, s)) for s, low in enumerate(_enclosed_from_below(blank, ranks), start=1))
-    if min(low / high for low, high in gaps) < CLEAR:
+    if min(low / high for low, high in gaps) < ABOVE:
         raise ArithmeticError(f"{slug}: {gaps} leave the noise too near")
     return NoisyVector(slug, system, blank.noise, blank.samples, blank.seed, ranks, gaps)
 
@@ -294,3 +313,46 @@ def _simulated(vector: NoisyVector) -> list[list[arb]]:
 
 def _enclosed(given: Matrix) -> arb_mat:
     return arb_mat([[arb(fmpq(x.numerator, x.denominator)) for x in row] for row in fractions(given)])
+
+
+# -- how clearly the samples show the fault space ----------------------------------------------------------------------------------------
+
+
+def conditions_gap(r: Matrix, system: ResidualSystem, block_rows: int) -> tuple[float, float]:
+    """Return (below the least nonzero singular value of the conditions, above the norm of the response).
+
+    Channels are in their units, states in the one that makes the largest entry of C one. Where no row vanishes on the windows there are no
+    conditions, and the first is infinite.
+    """
+    p, s = system.p, block_rows
+    response = _response(system, [1 / unit for unit in channel_units(r)], s)
+    size = enclosed_values(response.transposed() @ response)[1]
+    rows = left_null_space(hankel(in_channel_units(r), s))
+    if not rows.nrows:
+        return float("inf"), size
+    gram = rows @ rows.transposed()
+    total = Matrix.zero(rows.field, system.n + p, system.n + p)
+    for shift in range(s):
+        condition = rows.columns(range(shift * p, s * p)) @ response.rows(range((s - shift) * p))
+        divided = solve_left(gram, condition.transposed())
+        assert divided is not None  # the rows are independent
+        total = total + divided @ condition
+    return enclosed_values(total)[0], size
+
+
+def conditions_clear(r: Matrix, system: ResidualSystem, block_rows: int) -> bool:
+    """Say whether rounding of the samples leaves no doubt of the dimension of the fault space from windows of so many block rows."""
+    least, size = conditions_gap(r, system, block_rows)
+    low, high = singular_values(hankel(in_channel_units(r), block_rows))
+    return least > CLEAR * sqrt(system.p * block_rows) * high / low * size
+
+
+def _response(system: ResidualSystem, factors: list[Fraction], block_rows: int) -> Matrix:
+    """Return [0 I; C 0; C A 0; ..], block_rows blocks of rows, in the units of `conditions_gap`."""
+    n, p = system.n, system.p
+    C = scaled(system.C.transposed(), factors).transposed()
+    largest = max((abs(x) for row in fractions(C) for x in row), default=Fraction(0)) or Fraction(1)
+    unit = scaled(C, [1 / largest] * n)
+    later = observability_matrix(ResidualSystem(system.A, system.F, unit, system.G), block_rows - 1)
+    first = beside(Matrix.zero(system.field, p, n), Matrix.identity(system.field, p))
+    return stacked(first, beside(later, Matrix.zero(system.field, later.nrows, p)))

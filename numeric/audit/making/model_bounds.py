@@ -20,7 +20,7 @@ from ...study.conditioning import ModelError, by_gram, by_qr, moesp_error, noise
 from ..vectors.exact_comparison import markov, matched, poles, polynomial_from_the_top, transfer
 from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import POINTS, IdentificationVector
-from .drawing import TELLING, upward
+from .planting import TELLING, upward
 
 OfPoles = Callable[[Array, float, Sequence[complex]], list[float]]
 

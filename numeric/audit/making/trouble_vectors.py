@@ -1,5 +1,6 @@
 """How a kind of trouble becomes vectors: systems and signals from a seed, truth by the exact branch, bounds from conditioning.
 
+troubles         all kinds of trouble for a seed: the default set as it comes with the package, any other drawn and computed now
 made             the vectors of a kind for a seed: of the system, of a record without fault, of a residual
 structure_vector of a system alone
 unbounded        the same before there are bounds: all of it exact, so that every machine makes the same
@@ -13,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from random import Random
 
 import numpy as np
@@ -30,13 +32,11 @@ from ..vectors.exact_comparison import roots
 from ..vectors.fault_vectors import AS_GIVEN, HALF, FaultVector, in_channel_units, samples_that_settle
 from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import IdentificationVector, StructureVector
-from ..vectors.trouble import Trouble
-from .drawing import upward
-from .fault_records import leading_signal_bound, residual_bound, signal_bound, singular_values, space_bound
-from .kinds_of_trouble import COUNT, MODEL, RANKS, RESIDUAL, SIGNAL, SPACE, STRUCTURE, Kind
+from ..vectors.trouble import SEED, Trouble, default_troubles
+from .fault_records import conditions_clear, leading_signal_bound, residual_bound, signal_bound, singular_values, space_bound
+from .kinds_of_trouble import COUNT, KINDS, MODEL, RANKS, RESIDUAL, SIGNAL, SPACE, STRUCTURE, Kind
 from .model_bounds import model_bounds, telling
-from .planting import digits
-from .space_conditions import conditions_clear
+from .planting import digits, upward
 
 ATTEMPTS = 100
 APART, LEADING = 1.25, 3  # zeros so far outside let the end of a record disturb its first third by nothing that counts
@@ -247,3 +247,14 @@ def _grows(known: Structure) -> bool:
 
 def _finite(known: Structure) -> Sequence[complex]:
     return roots(known.invariant_zero_polynomial) if known.finite_zeros else ()
+
+
+@cache
+def troubles(seed: int) -> tuple[Trouble, ...]:
+    """Return the vectors of every kind. Another seed than the default takes five seconds of computing."""
+    return default_troubles() if seed == SEED else drawn_troubles(seed)
+
+
+def drawn_troubles(seed: int) -> tuple[Trouble, ...]:
+    """Return the vectors computed now, whatever the seed."""
+    return tuple(made(kind, seed) for kind in KINDS)

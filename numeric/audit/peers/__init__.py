@@ -6,7 +6,7 @@
     FAULT_ID  the environment variable with the folder of a clone of ggleizer/fault_id
     MATRIX_PENCILS  the one with a folder of the package MatrixPencils and those that it needs, where Julia does not find it by itself
 
-Nothing here imports a peer: a Python peer is imported by its adapter module, one of Octave or Julia by its script. An adapter has the
+Nothing here imports a peer: a Python peer is imported where `adapters` calls it, one of Octave or Julia by its script. An adapter has the
 functions that the package has, takes the defaults of the package where a user would, says why where it does not, and repairs nothing. A
 warning that names the trouble counts as a refusal, as it does in our own adapter. Errors that lie in scripts, outside every function, are
 in `by_hand.md`.
@@ -102,7 +102,7 @@ def _of_moesp() -> dict[str, str]:
 
 def _python(name: str, title: str, adapter: str, distribution: str) -> Peer:
     needs = f"pip install {distribution}"
-    return Peer(name, title, "Python", f"{__name__}.{adapter}", None, needs, partial(_distribution, distribution))
+    return Peer(name, title, "Python", f"{__name__}.adapters:{adapter}", None, needs, partial(_distribution, distribution))
 
 
 def _script(name: str, title: str, file: str, needs: str, version: Callable[[], str | None], *arguments: str) -> Peer:
@@ -115,14 +115,14 @@ PENCILS = (
     f"Julia with its package MatrixPencils, which it finds by itself or in the folder that the environment variable {MATRIX_PENCILS} names"
 )
 PEERS = (
-    _python("sippy_unipi", "sippy_unipi: MOESP, defaults (no D)", "sippy_adapter", "sippy_unipi"),
-    _python("sippy_unipi-D", "sippy_unipi: MOESP with SS_D_required=True", "sippy_adapter:with_feedthrough", "sippy_unipi"),
-    _python("nfoursid", "nfoursid: NFourSID", "nfoursid_adapter", "nfoursid"),
-    _python("ctrlsys", "ctrlsys (SLICOT in C): ib01ad, ib01bd; ab08nd", "ctrlsys_adapter", "ctrlsys"),
-    _python("ctrlsys-C", "ctrlsys: ib01bd with METH = C (B and D by N4SID)", "ctrlsys_adapter:combined", "ctrlsys"),
-    _python("python-control", "python-control: markov, eigensys_realization; StateSpace.zeros", "control_adapter", "control"),
-    _python("python-control-alone", "python-control without slycot: StateSpace.zeros", "control_adapter:without_slycot", "control"),
-    _python("slycot", "slycot (SLICOT): ab08nd", "slycot_adapter", "slycot"),
+    _python("sippy_unipi", "sippy_unipi: MOESP, defaults (no D)", "Sippy", "sippy_unipi"),
+    _python("sippy_unipi-D", "sippy_unipi: MOESP with SS_D_required=True", "SippyWithFeedthrough", "sippy_unipi"),
+    _python("nfoursid", "nfoursid: NFourSID", "Nfoursid", "nfoursid"),
+    _python("ctrlsys", "ctrlsys (SLICOT in C): ib01ad, ib01bd; ab08nd", "Ctrlsys", "ctrlsys"),
+    _python("ctrlsys-C", "ctrlsys: ib01bd with METH = C (B and D by N4SID)", "CtrlsysCombined", "ctrlsys"),
+    _python("python-control", "python-control: markov, eigensys_realization; StateSpace.zeros", "Control", "control"),
+    _python("python-control-alone", "python-control without slycot: StateSpace.zeros", "ControlWithoutSlycot", "control"),
+    _python("slycot", "slycot (SLICOT): ab08nd", "Slycot", "slycot"),
     replace(
         _script("octave-control", "Octave's control (SLICOT): moesp; zero", "octave_control.m", CONTROL, partial(_octave, "control")),
         not_promised=_of_moesp,

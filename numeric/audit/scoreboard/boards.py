@@ -5,7 +5,7 @@
     merged        new entries in place of old ones
     main          audits and writes board.json; what is not installed here keeps the entry that it has there
 
-The records of the file are in `records`; `pages` makes README's table and FINDINGS.md of it; `reproducers` has the scripts beside them.
+The records of the file are in `records`; `pages` makes README's table and FINDINGS.md of it, and the scripts beside them.
 """
 
 from __future__ import annotations
@@ -23,9 +23,8 @@ from ..peers import PEERS
 from ..peers import peer as peer_named
 from ..records import CheckResult, Status, grouped
 from ..running import audit
-from .pages import write_pages
+from .pages import write_pages, write_scripts
 from .records import Audited, Board, Tally
-from .reproducers import write
 
 
 def tallies(results: Iterable[CheckResult]) -> tuple[Tally, ...]:
@@ -85,5 +84,5 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 found = merged(Board((one,)), found)
                 write_text(file, found.text())  # what is known is kept, whatever comes then
     write_pages(found, given.out)
-    write(given.out)
+    write_scripts(given.out)
     return 0

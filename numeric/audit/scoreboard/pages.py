@@ -3,18 +3,23 @@
 table          Markdown: a row a function, a column an implementation; passed/asked
 findings       Markdown: each implementation's failures, in as many words as they need
 write_pages    puts the table between README's two marks and writes FINDINGS.md
+KEPT           (package, full name of a check): scripts that stand in the tree, one for each cause that is worth telling upstream
+path, text     where a script stands, beside the pages, and what is in it, in the language of the package
+write_scripts  all of them into a folder
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ....base.writing import write_text
 from ..adapter import FUNCTIONS
+from ..peers import peer
 from ..records import Demand, Status
+from ..upstream.reproducing import script
 from .records import Audited, Board, Tally
-from .reproducers import KEPT, path
 
 BEGIN, END = "<!-- scoreboard -->", "<!-- end of scoreboard -->"
 VARIANTS = {"fault_id-threshold": "fault_id"}  # settings of which that alone is told in which they differ
@@ -107,3 +112,36 @@ def write_pages(board: Board, folder: Path) -> None:
         _, _, after = rest.partition(END)
         write_text(readme, f"{before}{BEGIN}\n{table(board)}\n{END}{after}")
     write_text(folder / "FINDINGS.md", findings(board))
+
+
+ENDINGS = {"Python": "py", "Octave": "m", "Julia": "jl"}
+KEPT = (
+    ("ctrlsys", "exact-recovery[n2-u1-p1]-identify"),
+    ("ctrlsys", "refuses-shapes[two-faults]-structure"),
+    ("nfoursid", "memory-grows-with-N[N3000-N12000]-identify"),
+    ("nfoursid", "other-units[n2-u1-p1]-identify"),
+    ("sippy_unipi", "right-on-long-records[N12000]-identify"),
+    ("python-control-alone", "finite-zeros[orders-one-and-three]-structure"),
+    ("slycot", "normal-rank[six-by-six]-structure"),
+    ("octave-control", "refuses-nan-model[two-faults]-structure"),
+    ("matrix-pencils", "finite-zeros[zeros-outside]-structure"),
+    ("fault_id", "fault-space-1e6[one-fault]-fault_space"),
+)
+
+
+def path(name: str, check: str) -> str:
+    """Return the path of the script of a package's check, below the folder of the pages."""
+    return f"reproducers/{name}/{re.sub('[^A-Za-z0-9_]+', '_', check).strip('_')}.{ENDINGS[peer(name).language]}"
+
+
+def text(name: str, check: str) -> str:
+    """Return the script of a package's check."""
+    return script(check, FUNCTIONS, peer(name).language.lower(), peer=name)
+
+
+def write_scripts(folder: Path) -> None:
+    """Write the scripts of KEPT below the folder of the pages."""
+    for name, check in KEPT:
+        file = folder / path(name, check)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        write_text(file, text(name, check))

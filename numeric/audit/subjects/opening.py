@@ -18,12 +18,11 @@ from typing import Protocol
 
 from ....base.errors import InvalidData
 from ....base.processes import Limits
-from ..adapter import excused, guarded, not_promised
+from ..adapter import excused, fitting, guarded, not_promised
 from ..diagnosing.explaining import explained
 from ..peers import VARIABLES
 from ..peers import peer as peer_named
 from ..records import Check, CheckResult, perform
-from ..signatures import fitting
 from .isolation import Isolated
 from .subprocess_adapter import Exec
 

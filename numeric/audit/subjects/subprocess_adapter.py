@@ -19,9 +19,8 @@ import numpy as np
 
 from ....base.errors import InvalidData, shorten
 from ....base.processes import STANDARD, Limits
-from ..adapter import FUNCTIONS, ZeroStructure, known
+from ..adapter import ARGUMENTS, FUNCTIONS, ZeroStructure, known
 from ..records import Broken, Refused
-from ..signatures import ARGUMENTS
 from .programs import LOADING, Program
 
 OFFERS = {"call": "functions"}

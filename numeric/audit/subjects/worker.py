@@ -28,9 +28,8 @@ import psutil
 
 from ....base.errors import InvalidData
 from ....base.threads import one_thread
-from ..adapter import guarded, load, not_promised
+from ..adapter import fitting, guarded, load, not_promised
 from ..records import Broken, Function, Refused
-from ..signatures import fitting
 from .wire import packed, unpacked
 
 PATIENCE = 1.0  # seconds that copies of this process have to come back

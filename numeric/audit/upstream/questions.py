@@ -19,10 +19,9 @@ import numpy as np
 from faultspace.exact.algebra.matrices import Matrix
 
 from ....base.arrays import Array
-from ..adapter import ZeroStructure
-from ..diagnosing.recording import Call, Recorder
+from ..adapter import ARGUMENTS, ZeroStructure
+from ..diagnosing.suspicions import Call, Recorder
 from ..records import Check, Demand, Measurement, Refused, Sides
-from ..signatures import ARGUMENTS
 from ..vectors.rationals import fractions, roundings
 
 LONGEST = 1000  # rows of an array up to which rationals are given; longer records are made in floats, which are the data

@@ -25,7 +25,7 @@ from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.signals import simulate
 from faultspace.exact.system.systems import ResidualSystem
 
-from .rationals import floats, matrix, residual_system, scaled
+from .rationals import floats, fractions, matrix, residual_system, scaled
 
 SETTLED, WIDE = 3, 2  # two gaps may be equal by chance, and nearly square matrices have small singular values by chance
 HALF = 45  # of the 90 samples of each record
@@ -255,3 +255,36 @@ def gaps_to_json(r: Matrix, gaps: tuple[tuple[float, float], ...]) -> dict[str, 
 def gaps_from_json(data: Mapping[str, Any]) -> tuple[tuple[float, float], ...]:
     """This reads what `gaps_to_json` wrote."""
     return tuple((one["least_nonzero_above"], one["largest_below"]) for one in data["singular_values"])
+
+
+LONG_WINDOW = 10
+
+
+def with_input(r: Matrix, system: ResidualSystem, size: Fraction) -> tuple[Matrix, Matrix]:
+    """Return (y, u), where y is r plus the response from rest to u for the model B = F, D = G.
+
+    Channel j of u is size at every (j + 2)nd sample and -size between.
+    """
+    u = matrix([[size if k % (j + 2) == 0 else -size for j in range(system.m)] for k in range(r.nrows)], system.m)
+    return r + simulate(system, Matrix.zero(system.field, system.n, 1), u).residuals, u
+
+
+def sine_samples(count: int) -> list[Fraction]:
+    """The samples are cos(k a) for k = 0 .. count - 1."""
+    c, s, result = Fraction(1), Fraction(0), []
+    for _ in range(count):
+        result.append(c)
+        c, s = c * 3 / 5 - s * 4 / 5, c * 4 / 5 + s * 3 / 5
+    return result
+
+
+def unexciting_inputs(samples: int) -> dict[str, Matrix]:
+    """Return two inputs of one channel: a constant and a sine, exciting of order one and two."""
+    return {"constant": matrix([[Fraction(3, 2)]] * samples, 1), "sine": matrix([[x] for x in sine_samples(samples)], 1)}
+
+
+def alike_inputs(u: Matrix) -> dict[str, Matrix]:
+    """Return two inputs of as many samples as the one given (N, 1), of which the second says nothing that the first has not said."""
+    first = [row[0] for row in fractions(u)]
+    seconds = {"same": first, "turned": [-2 * x for x in first], "delayed": [Fraction(0), *first[:-1]]}
+    return {name: matrix([list(pair) for pair in zip(first, second, strict=True)], 2) for name, second in seconds.items()}

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.audit import adapter, reference
+from faultspace.numeric.audit import reference
 from faultspace.numeric.audit.adapter import FUNCTIONS, guarded, load
 from faultspace.numeric.audit.checks.catalogue import all_checks, quick_checks
 from faultspace.numeric.audit.checks.refusals import same_output_twice
@@ -22,16 +22,6 @@ from faultspace.numeric.audit.running import ExpectedFailure, audit, parametrize
 from faultspace.numeric.audit.vectors.rationals import floats
 from faultspace.numeric.audit.vectors.shipped_vectors import shipped
 from tests.thorough import every
-
-# What mypy checks: the reference is what the protocols describe.
-_identifies: adapter.Identifies = reference
-_simulates: adapter.Simulates = reference
-_ranks: adapter.RanksWindows = reference
-_counts: adapter.CountsFaults = reference
-_finds: adapter.FindsFaults = reference
-_reconstructs: adapter.Reconstructs = reference
-_knows: adapter.KnowsStructure = reference
-
 
 # Noisy records take a second each; that their units do not matter is asked daily of the same functions in `test_rows.py`.
 DECORATED: Any = parametrize_with_checks(reference)

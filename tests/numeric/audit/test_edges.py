@@ -13,8 +13,7 @@ from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.signals import hankel, simulate
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.numeric.audit.checks import edges, growth, laws
-from faultspace.numeric.audit.vectors.fault_vectors import samples_that_settle
-from faultspace.numeric.audit.vectors.inputs import alike_inputs
+from faultspace.numeric.audit.vectors.fault_vectors import alike_inputs, samples_that_settle
 from faultspace.numeric.audit.vectors.rationals import floats, fractions, matrix
 from faultspace.numeric.audit.vectors.shipped_vectors import shipped
 

@@ -17,18 +17,16 @@ from hypothesis import strategies as st
 
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.audit import reference
+from faultspace.numeric.audit.adapter import ARGUMENTS, fitting
 from faultspace.numeric.audit.checks.catalogue import all_checks, chosen
 from faultspace.numeric.audit.expectations import ExpectedFailure, expected_in
-from faultspace.numeric.audit.names import named, patterned
 from faultspace.numeric.audit.outcome import Audit
-from faultspace.numeric.audit.records import CheckResult, Demand, Named, Severity, Sides, Status, first_difference, plain
+from faultspace.numeric.audit.records import CheckResult, Demand, Named, Severity, Sides, Status, first_difference, named, patterned, plain
 from faultspace.numeric.audit.reports import causes as folding
-from faultspace.numeric.audit.reports.badge import endpoint, svg
-from faultspace.numeric.audit.reports.junit import document
+from faultspace.numeric.audit.reports.causes import beside, lines_of
+from faultspace.numeric.audit.reports.machines import endpoint, junit_xml, svg
 from faultspace.numeric.audit.reports.versions import versions
-from faultspace.numeric.audit.reports.words import beside, lines_of
 from faultspace.numeric.audit.running import parametrize_with_checks
-from faultspace.numeric.audit.signatures import ARGUMENTS, fitting
 from tests.end_to_end.commands import call
 
 FIELDS = st.text(st.characters(codec="utf-8"), max_size=20)
@@ -255,7 +253,7 @@ def test_the_pytest_face_says_what_the_command_says() -> None:
 
 @given(RESULTS, FIELDS)
 def test_junit_is_xml_with_every_result_and_its_counts(results: list[CheckResult], adapter: str) -> None:
-    suite = ElementTree.fromstring(document(adapter, results).encode())[0]
+    suite = ElementTree.fromstring(junit_xml(adapter, results).encode())[0]
     cases = suite.findall("testcase")
     assert [(one.get("classname"), one.get("name")) for one in cases] == [(one.function, one.name) for one in results]
     red = sum(one.find("failure") is not None or one.find("error") is not None for one in cases)
@@ -266,7 +264,7 @@ def test_junit_is_xml_with_every_result_and_its_counts(results: list[CheckResult
 
 @given(st.text(st.characters(exclude_categories=()), max_size=30))
 def test_junit_takes_whatever_a_program_says_before_it_dies(said: str) -> None:
-    ElementTree.fromstring(document("x", [result("a", "v", "broken", detail=said)]).encode("utf-8", errors="strict"))
+    ElementTree.fromstring(junit_xml("x", [result("a", "v", "broken", detail=said)]).encode("utf-8", errors="strict"))
 
 
 @given(RESULTS)

@@ -9,8 +9,8 @@ import pytest
 
 from faultspace.exact.structure.signals import hankel
 from faultspace.numeric.audit.making import trouble_vectors
+from faultspace.numeric.audit.making.fault_records import conditions_clear, conditions_gap
 from faultspace.numeric.audit.making.kinds_of_trouble import KINDS
-from faultspace.numeric.audit.making.space_conditions import conditions_clear, conditions_gap
 from faultspace.numeric.audit.making.trouble_vectors import unbounded
 from faultspace.numeric.audit.vectors.fault_vectors import FaultVector, channel_units, in_channel_units
 from faultspace.numeric.audit.vectors.rationals import floats

@@ -1,11 +1,9 @@
 % refuses-nan-model[two-faults]-structure: answers about no system.
-%
-% How it is compared: No answer is right. The function raises an error or answers nothing. It must be refused.
-%
-% Made by faultspace 0.1.0: faultspace audit --reproduce 'refuses-nan-model[two-faults]-structure' --language
-% octave
+% It must be refused.
+% Made by faultspace 0.1.0: faultspace audit --reproduce 'refuses-nan-model[two-faults]-structure' --language octave
 
 failed = false;
+
 % -- how Octave's control (SLICOT): moesp; zero is called
 1;
 pkg load control
@@ -54,15 +52,13 @@ G = [
   -1.2857142857142858 -0.8571428571428571
   0.42857142857142855 0.7142857142857143
 ];
-
 try
   answer = structure(A, F, C, G);
 catch problem
-  crashes = {'Octave:index-out-of-bounds', 'Octave:bad-index', 'Octave:undefined-function', 'MATLAB:badsubscript', 'MATLAB:UndefinedFunction'};
+  crashes = {'Octave:index-out-of-bounds', 'Octave:bad-index', 'Octave:undefined-function', ...
+             'MATLAB:badsubscript', 'MATLAB:UndefinedFunction'};
   if any(strcmp(problem.identifier, crashes)), fprintf('WRONG: a crash: %s\n', problem.message); exit(1); end
   fprintf('refused: %s\nright: there is nothing to answer\n', problem.message); exit(0);
 end
-
 disp('WRONG: answered where a refusal is due'); failed = true;
-
 exit(double(failed));

@@ -1,132 +1,66 @@
-"""normal-rank[six-by-six]-structure: independent faults are taken for dependent or the reverse.
+# normal-rank[six-by-six]-structure: independent faults are taken for dependent or the reverse.
+# Made by faultspace 0.1.0: faultspace audit --reproduce 'normal-rank[six-by-six]-structure' --language python
 
-How it is compared: The number is equal to the true one. It is true or false as it is to be.
+from __future__ import annotations
 
-Made by faultspace 0.1.0: faultspace audit --reproduce 'normal-rank[six-by-six]-structure' --language python
-"""
-
-import base64
 import sys
-import zlib
 
 import numpy as np
 
-failed = False
+wrong = []
 
 
 def told(what, got, expected, off, bound):
-    """Print one comparison; `off` and `bound` are arrays of one shape or numbers."""
-    global failed
-    off, bound = (np.atleast_1d(np.asarray(one, dtype=float)) for one in (off, bound))
-    wrong = bool(np.any(~(off <= bound)))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = np.where(off == 0, 0.0, off / bound)
-    failed = failed or wrong
-    print(f"{what}: {'WRONG' if wrong else 'right'}")
-    print("  got     ", np.array2string(np.asarray(got), threshold=40, prefix="  got      "))
-    print("  expected", np.array2string(np.asarray(expected), threshold=40, prefix="  expected "))
-    print(f"  off by {np.max(off, initial=0.0):.3g}, largest ratio to the bound {np.max(ratio, initial=0.0):.3g}")
-
-
-def nearest(got, expected):
-    """The numbers of `got` in the order of those of `expected` that they are nearest to; NaN where one is missing."""
-    left, found = list(np.asarray(got, dtype=complex)), []
-    for z in expected:
-        found.append(left.pop(int(np.argmin(np.abs(np.array(left) - z)))) if left else np.nan)
-    return np.array(found + ([np.nan] if left else []), dtype=complex)
-
-
-def sine(got, expected):
-    """The sine of the largest angle between the spaces of the columns, 1 where their dimensions differ."""
-    spaces = []
-    for columns in (got, expected):
-        U, s, _ = np.linalg.svd(columns / (np.max(np.abs(columns), initial=0.0) or 1.0), full_matrices=False)
-        spaces.append(U[:, s > 1e-12 * max(s, default=0.0)])
-    P, Q = spaces
-    return 1.0 if P.shape != Q.shape else np.linalg.norm(P - Q @ (Q.T @ P), 2)
+    wrong.append(not np.all(off <= np.asarray(bound)))
+    most = [np.max(one, initial=0.0) for one in (off, bound)]
+    print("{}: {}, off by {:.3g}, bound {:.3g}".format(what, "WRONG" if wrong[-1] else "right", *most))
+    print("  got", got, "\n  expected", expected)
 
 # -- how slycot (SLICOT): ab08nd is called
-Array = object
-from types import SimpleNamespace
+def _zeros_of_slicot(nu: int, rank: int, infz: Any, Af: Any, Bf: Any, inputs: int) -> dict[str, Any]:
+    import scipy.linalg
 
-
-def ZeroStructure(rank, zeros, orders, invertible):
-    return SimpleNamespace(normal_rank=rank, finite_zeros=zeros, infinite_zero_orders=orders, left_invertible=invertible)
-from types import SimpleNamespace
-
-
-def ZeroStructure(rank, zeros, orders, invertible):
-    return SimpleNamespace(normal_rank=rank, finite_zeros=zeros, infinite_zero_orders=orders, left_invertible=invertible)
-from collections.abc import Sequence
-from typing import Any
-import numpy as np
-import scipy.linalg
-
-
-def structure_of(nu: int, rank: int, infz: Sequence[int], Af: Any, Bf: Any, inputs: int) -> ZeroStructure:
-    """Finite zeros are the eigenvalues of the pencil (Af, Bf), which is left to the caller of AB08ND. infz[i] infinite zeros have the order
-    i + 1; as many as the rank leaves over have the order 0, which AB08ND does not list.
-    """
-    zeros = scipy.linalg.eigvals(Af[:nu, :nu], Bf[:nu, :nu]) if nu else np.zeros(0)
+    # Finite zeros are the eigenvalues of the pencil (Af, Bf), which is left to the caller of AB08ND. infz[i] infinite zeros have the
+    # order i + 1; as many as the rank leaves over have the order 0, which AB08ND does not list.
+    zeros = scipy.linalg.eigvals(Af[:nu, :nu], Bf[:nu, :nu]) if nu else []
     orders = [i + 1 for i, count in enumerate(infz) for _ in range(int(count))]
-    return ZeroStructure(int(rank), [complex(z) for z in zeros], [0] * (int(rank) - len(orders)) + orders, int(rank) == inputs)
+    orders = [0] * (int(rank) - len(orders)) + orders
+    known = {"normal_rank": int(rank), "left_invertible": int(rank) == inputs}
+    return {**known, "finite_zeros": [complex(z) for z in zeros], "infinite_zero_orders": orders}
 
-import slycot
+def _slycot_zeros(A: Array, F: Array, C: Array, G: Array) -> dict[str, Any]:
+    import slycot
 
-
-def structure(A: Array, F: Array, C: Array, G: Array) -> ZeroStructure:
-    """Return the zeros as the package finds them by default: no scaling, its own tolerance."""
     n, m = len(A), F.shape[1]
-    try:
+    try:  # no scaling, its own tolerance
         nu, rank, dinfz, _, _, infz, _, _, Af, Bf = slycot.ab08nd(n, m, len(C), A, F, C, G)
     except Exception as error:
         if type(error).__module__ != "_wrapper":
             raise
         raise ValueError(str(error)) from error  # f2py's class for arguments of the wrong shape, which no module exports
-    return structure_of(nu, rank, infz[:dinfz], Af, Bf, m)
+    return _zeros_of_slicot(nu, rank, infz[:dinfz], Af, Bf, m)
+
+structure = _slycot_zeros
 
 # -- the question
-A = np.array([
-    [0.75, 0.0, 0.25, 0.0], [-1.75, -0.75, -0.25, 0.0], [-1.25, 0.0, -0.75, 0.0], [-1.5, 0.0, -1.75, 0.75]
-])
+A = np.array([0.75, 0.0, 0.25, 0.0, -1.75, -0.75, -0.25, 0.0, -1.25, 0.0, -0.75, 0.0, -1.5, 0.0, -1.75, 0.75]).reshape(4, 4)
 F = np.array([
-    [-1.0, -3.5, -3.0, 2.0, 0.5, -2.5], [1.5, 5.5, 2.0, -2.5, -2.0, 3.0], [2.5, 2.5, 2.5, -3.5, 1.0, 1.0], [2.0, -2.0, 3.0, -5.0,
-    3.0, -3.0]
-])
+    -1.0, -3.5, -3.0, 2.0, 0.5, -2.5, 1.5, 5.5, 2.0, -2.5, -2.0, 3.0, 2.5, 2.5, 2.5, -3.5, 1.0, 1.0, 2.0, -2.0, 3.0, -5.0, 3.0,
+    -3.0
+]).reshape(4, 6)
 C = np.array([
-    [-2.5, 0.5, -1.5, -0.5], [-1.5, -0.5, -2.5, 1.0], [1.5, -1.0, 3.0, -1.5], [2.0, 2.0, -3.0, 1.0], [-2.0, -2.0, -2.0, 0.5],
-    [3.5, 0.5, 3.5, -1.5]
-])
+    -2.5, 0.5, -1.5, -0.5, -1.5, -0.5, -2.5, 1.0, 1.5, -1.0, 3.0, -1.5, 2.0, 2.0, -3.0, 1.0, -2.0, -2.0, -2.0, 0.5, 3.5, 0.5, 3.5,
+    -1.5
+]).reshape(6, 4)
 G = np.array([
-    [0.5, -5.0, -1.0, 0.5, 2.0, -4.5], [0.5, 1.0, 1.0, -1.5, 1.5, 2.0], [-1.0, -0.5, 1.0, -1.5, -2.0, 0.0], [-1.5, -4.5, -2.5,
-    1.5, 1.5, -3.5], [-0.5, -4.0, -2.5, 1.5, -2.0, -3.0], [-1.5, -2.5, -1.5, 2.0, 0.5, -1.5]
-])
-
-try:
-    answer = structure(A, F, C, G)
-except (ValueError, ArithmeticError) as error:
-    print(f"refused: {type(error).__name__}: {error}")
-    answer = None
-if answer is None:
-    sys.exit('WRONG: an answer is due')
-
-expected = np.array([
-    [6]
-])
-expected = expected.astype('int64')
-bound = 0.0
-field = (lambda name: answer[name]) if isinstance(answer, dict) else (lambda name: getattr(answer, name))
-got = np.array([[field('normal_rank')]], dtype=float)
-off = 0.0 if got.shape == expected.shape and np.array_equal(got, expected) else np.inf
-told('normal rank', got, expected, off, 0.0)
-
-expected = np.array([
-    [True]
-])
-bound = 0.0
-field = (lambda name: answer[name]) if isinstance(answer, dict) else (lambda name: getattr(answer, name))
-got = np.array([[bool(field('left_invertible'))]], dtype=float)
-off = 0.0 if got.shape == expected.shape and np.array_equal(got, expected) else np.inf
-told('left invertible', got, expected, off, 0.0)
-
-sys.exit(1 if failed else 0)
+    0.5, -5.0, -1.0, 0.5, 2.0, -4.5, 0.5, 1.0, 1.0, -1.5, 1.5, 2.0, -1.0, -0.5, 1.0, -1.5, -2.0, 0.0, -1.5, -4.5, -2.5, 1.5, 1.5,
+    -3.5, -0.5, -4.0, -2.5, 1.5, -2.0, -3.0, -1.5, -2.5, -1.5, 2.0, 0.5, -1.5
+]).reshape(6, 6)
+answer = structure(A, F, C, G)
+expected = 6; bound = 0.0
+got = answer['normal_rank'] if isinstance(answer, dict) else answer.normal_rank
+told("normal rank", got, expected, 0.0 if list(np.ravel(got)) == list(np.ravel(expected)) else np.inf, 0.0)
+expected = True; bound = 0.0
+got = answer['left_invertible'] if isinstance(answer, dict) else answer.left_invertible
+told("left invertible", got, expected, 0.0 if list(np.ravel(got)) == list(np.ravel(expected)) else np.inf, 0.0)
+sys.exit(any(wrong))

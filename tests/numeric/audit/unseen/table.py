@@ -25,7 +25,7 @@ from typing import Any
 from faultspace.numeric.audit.checks.catalogue import chosen
 from faultspace.numeric.audit.records import Check, Demand
 from faultspace.numeric.audit.subjects.opening import InProcess
-from faultspace.numeric.audit.upstream.recipes import MANNERS
+from faultspace.numeric.audit.upstream.exporting import MANNERS
 from tests.numeric.audit.unseen.catalogue import ALL, RIGHT
 from tests.numeric.audit.unseen.form import Unseen
 

@@ -1,8 +1,10 @@
-"""Inputs of period three, and the systems of two states in which they hide one: the smallest of a family, found by search.
+"""Experiments that refute what one might expect of population limits: inputs of period three, found by search, and kept ones.
 
     Seasonal       A = [[t, -d], [1, 0]], B = e1, C = I, u(k) + a u(k-3) + b u(k-6) = e(k), s = past = 2
     seasonal       the experiment with such an input and a fault that is independent of it
     in_order       the members with fractions of small denominators that lose a rank, smallest first
+    kept           the experiment of a name in counterexamples/, whose README says what each shows
+    WITHOUT_RANK   those in which PI-MOESP loses a rank though v is uncorrelated with u at all lags
 
 Samples three apart are of one phase, and phases are independent. Of the instruments, u(-1) belongs to the phase of u(2), which is not
 given, u(-2) to that of u(1), which is; so the two reach the state through different filters. With k = a / (1 + b) the limit is O_s M, M
@@ -12,9 +14,11 @@ that it finds.
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
+from importlib import resources
 from itertools import product
 
 from ...exact.limits.experiments import Experiment, read_experiment
@@ -23,6 +27,15 @@ LARGEST_DENOMINATOR = 5
 BOX = (
     f"A = [[t, -d], [1, 0]], B = e1, C = I, u(k) + a u(k-3) + b u(k-6) = e(k), s = past = 2, denominators of t, d, b at most "
     f"{LARGEST_DENOMINATOR}, by the sum of all numerators and denominators of t, d, a, b"
+)
+WITHOUT_RANK = (
+    "seasonal-input",
+    "seasonal-input-coloured-fault",
+    "moving-average-input",
+    "moving-average-input-coloured-fault",
+    "integer-taps",
+    "rational-input",
+    "rational-input-one-output",
 )
 
 
@@ -73,3 +86,9 @@ def seasonal(one: Seasonal, taps: int = 1, past: int = 2) -> Experiment:
             "v_filter": [[["0", "1"]]] * taps,
         }
     )
+
+
+def kept(name: str) -> Experiment:
+    """Return the experiment that stands in counterexamples/NAME.json."""
+    text = resources.files("faultspace.proofs").joinpath("counterexamples", f"{name}.json").read_text(encoding="utf-8")
+    return read_experiment(json.loads(text), where=name)
