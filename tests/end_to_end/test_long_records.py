@@ -104,12 +104,12 @@ def test_model_and_residual_are_those_of_the_arrays(long_record: tuple[Array, Ar
 @pytest.mark.parametrize("p", [1, 3])
 def test_a_fault_signal_in_pieces_is_that_of_the_whole(G: list[list[float]], p: int, monkeypatch: pytest.MonkeyPatch) -> None:
     # With one output the fault has finite zeros, inside and outside the unit circle: their traces fade from both ends.
-    G_p, C, samples = np.array(G)[:p], made.C[:p], 8_000
+    G_p, C, samples = np.array(G)[:p], made.C[:p], 9_000
     draw = np.random.default_rng(2)
     v = draw.standard_normal((samples, 1))
     r = StateSpaceModel(made.A, made.F, C, G_p).simulate(v) + 1e-3 * draw.standard_normal((samples, p))
     whole = smoothed(r, made.A, made.F, C, G_p)
-    monkeypatch.setattr(reconstruction, "LONGEST", 3000)
+    monkeypatch.setattr(reconstruction, "LONGEST", 6000)
     got = reconstruct_fault(stored(r), made.A, made.F, C, G_p)
     of_array = reconstruct_fault(r, made.A, made.F, C, G_p)
     assert np.array_equal(of_array.v, got.v) and of_array.misfit == got.misfit and of_array.mismatch == got.mismatch > 0
