@@ -170,8 +170,10 @@ def test_a_file_that_is_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     refused(call("inspect", str(path)), "large.json", "bytes")
 
 
-def test_a_file_of_many_small_parts_is_not_made_into_objects(tmp_path: Path) -> None:
+def test_a_file_of_many_small_parts_is_not_made_into_objects(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "parts.json"
+    assert reading_files.MOST_PARTS <= 1 << 22
+    monkeypatch.setattr(reading_files, "MOST_PARTS", 1 << 12)
     for part in ("[],", "{},"):
         path.write_text(f"[{part * (reading_files.MOST_PARTS // 2)}0]")
         refused(call("inspect", str(path)), "parts.json", "got [")

@@ -1,8 +1,7 @@
 """`faultspace identify`: whole runs on data whose answer is known, and what it says where the data cannot tell.
 
-answered        a run on it with pictures, order and sample time given, that several tests read, and its folder, of which they make a copy
+answered        a run with pictures, and with order, number of faults and sample time given, and its folder, of which tests make a copy
 as_printed      a run of the command that `faultspace examples` prints, its folder, and the answer
-given           a run with order and number of faults given, where there is no matplotlib, and its folder
 response        what a fault column does to the outputs, whatever the basis of the states
 """
 
@@ -59,7 +58,7 @@ def answered(tmp_path_factory: pytest.TempPathFactory, record: made.FaultyRecord
 
             whole = Figure.savefig
             patch.setattr(Figure, "savefig", lambda figure, file, **options: whole(figure, file, **{**options, "dpi": 20}))
-        run = identified(path, folder / "out", "--json", "--order", "3", "--dt", "0.25")
+        run = identified(path, folder / "out", "--json", "--order", "3", "--faults", "1", "--dt", "0.25")
     assert run.code == 0, run.err
     return run, folder / "out"
 
@@ -82,20 +81,6 @@ def as_printed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Run, Path, Ide
         run = call("identify", *shlex.split(listed.err.partition("find it with: faultspace identify ")[2].replace("\n", " ")))
     assert run.code == 0, run.err
     return run, folder, found[0]
-
-
-@pytest.fixture(scope="module")
-def given(tmp_path_factory: pytest.TempPathFactory, record: made.FaultyRecord) -> tuple[Run, Path]:
-    def without(name: str) -> Any:
-        raise ImportError(name)
-
-    folder = tmp_path_factory.mktemp("given")
-    path = small_csv(folder, made.csv_text(record), made.FILE_NAME)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("faultspace.numeric.plant.report.result_pictures.import_module", without)
-        run = identified(path, folder / "out", "--json", "--faults", "1", "--order", "3")
-    assert run.code == 0, run.err
-    return run, folder / "out"
 
 
 def response(A: Any, F: Any, C: Any, G: Any, count: int = 8) -> Array:
@@ -158,6 +143,7 @@ def test_people_read_a_summary_and_find_the_files(as_printed: tuple[Run, Path, I
         "5 independent ones for the 6",
         "meaning: ",
         "delay until",
+        "leave noise alone (probability",
     ):
         assert part in run.out, part
     assert "determined: " in run.out and "## What to try next" in run.out and "given" not in run.out
@@ -177,8 +163,15 @@ def test_the_plots_are_pictures(answered: tuple[Run, Path]) -> None:
     assert (out / report.PAGE).read_text("utf-8").count('<img src="data:image/png;base64,') == len(drawn)
 
 
-def test_without_matplotlib_it_says_so_and_goes_on(given: tuple[Run, Path]) -> None:
-    run, out = given
+def test_without_matplotlib_it_says_so_and_goes_on(
+    as_printed: tuple[Run, Path, Identification], csv_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def without(name: str) -> Any:
+        raise ImportError(name)
+
+    monkeypatch.setattr("faultspace.numeric.plant.report.result_pictures.import_module", without)
+    monkeypatch.setattr(command, "identify", lambda *_, **__: as_printed[2])
+    run, out = identified(csv_file, tmp_path / "out", "--json"), tmp_path / "out"
     assert "matplotlib is not installed" in run.err
     assert run.json["files"] == [report.MODEL, report.SPACE, report.SIGNAL, RESIDUAL, report.SUMMARY, report.PAGE]
     assert "<img" not in (out / report.PAGE).read_text("utf-8")
@@ -222,7 +215,6 @@ def test_the_summary_has_one_measure_of_what_is_explained(answered: tuple[Run, P
     for said in (
         "share of the sum of squares",
         "fit means 100 (1 - |y - simulated y| / |y - mean of y|)",
-        "leave noise alone (probability",
         "from the ranks of the residual, for comparison: 1",
         "dB: of the power of what it leaves",
     ):
@@ -414,20 +406,17 @@ def test_healthy_samples_that_are_too_few_are_reported(tmp_path: Path, csv_file:
     assert not (tmp_path / "none").exists()
 
 
-def test_means_far_from_zero_are_told_and_removed(tmp_path: Path, record: made.FaultyRecord) -> None:
+def test_means_far_from_zero_are_told(tmp_path: Path, record: made.FaultyRecord) -> None:
+    """That they are removed where nothing else is stated is asked in `test_operating_point.py`."""
     path = tmp_path / "lifted.npz"
     np.savez(path, u=record.u + 20, y=record.y - 100)
     channels = ("--inputs", "u", "--outputs", "y")
     plain = identified(path, tmp_path / "a", "--json", "--order", "3", "--operating-point", "zero", channels=channels)
     assert plain.code == 0 and any("--operating-point means" in row["advice"] for row in plain.json["doubts"]["rows"])
-    run = identified(path, tmp_path / "b", "--json", channels=channels)
-    assert run.json["operating_point"]["of"] == "whole record" and not run.json["operating_point"]["stated"]
-    assert (run.code, run.json["order"], run.json["n_v"]) == (0, 3, 1)
-    assert not any("--operating-point means" in row["advice"] for row in run.json["doubts"]["rows"])
 
 
-def test_as_given_is_said_of_what_was_given_only(given: tuple[Run, Path]) -> None:
-    run, out = given
+def test_as_given_is_said_of_what_was_given_only(answered: tuple[Run, Path]) -> None:
+    run, out = answered
     assert "n_v as given" in run.json["fault_space"]["reason"] and run.json["n_v_reason"].startswith("1 given; as the data say")
     assert (run.json["order_given"], run.json["n_v_given"]) == (True, True)
     summary = (out / report.SUMMARY).read_text("utf-8")
@@ -436,7 +425,7 @@ def test_as_given_is_said_of_what_was_given_only(given: tuple[Run, Path]) -> Non
 
 def test_an_order_that_leaves_the_model_open_is_not_taken() -> None:
     draw = np.random.default_rng(1)
-    u, v = draw.standard_normal((3000, 2)), draw.standard_normal((3000, 1))
+    u, v = draw.standard_normal((1000, 2)), draw.standard_normal((1000, 1))
     driven = StateSpaceModel(made.A, np.hstack([made.B, made.F]), made.C, np.zeros((3, 3)))
     # Without noise the largest gap lies where the faults end, far beyond the order: the evidence of an ARX model chooses in its place.
     answer = identifying.identify(recorded(driven.simulate(np.hstack([u, v])), u, outputs=made.OUTPUTS, inputs=made.INPUTS))

@@ -104,7 +104,7 @@ def test_model_and_residual_are_those_of_the_arrays(long_record: tuple[Array, Ar
 @pytest.mark.parametrize("p", [1, 3])
 def test_a_fault_signal_in_pieces_is_that_of_the_whole(G: list[list[float]], p: int, monkeypatch: pytest.MonkeyPatch) -> None:
     # With one output the fault has finite zeros, inside and outside the unit circle: their traces fade from both ends.
-    G_p, C, samples = np.array(G)[:p], made.C[:p], 16_000
+    G_p, C, samples = np.array(G)[:p], made.C[:p], 9_000
     draw = np.random.default_rng(2)
     v = draw.standard_normal((samples, 1))
     r = StateSpaceModel(made.A, made.F, C, G_p).simulate(v) + 1e-3 * draw.standard_normal((samples, p))
@@ -152,7 +152,7 @@ def test_faults_of_a_part_of_the_record_are_looked_for_there() -> None:
 
 
 def test_a_late_fault_is_counted_and_the_stretch_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
-    samples, begins, lasts, part = 4000, 3000, 600, 128
+    samples, begins, lasts, part = 1200, 900, 180, 32
     draw = np.random.default_rng(4)
     u, v = draw.standard_normal((samples, 2)), np.zeros((samples, 1))
     v[begins : begins + lasts] = draw.standard_normal((lasts, 1))

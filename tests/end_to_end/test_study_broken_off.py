@@ -175,12 +175,21 @@ def file_size(limit: int) -> Iterator[None]:
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of a study that nothing stopped."""
+    folder = tmp_path_factory.mktemp("study") / "whole"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(studying, "_draw", lambda studies, folder: None)
+        assert study(folder).code == 0
+    return folder
+
+
 @pytest.mark.usefixtures("without_figures")
 @pytest.mark.parametrize("limit", [50, 9_000, 12_345, 40_000])
-def test_a_full_disk_is_one_line_and_what_was_kept_is_whole(limit: int, tmp_path: Path) -> None:
+def test_a_full_disk_is_one_line_and_what_was_kept_is_whole(limit: int, tmp_path: Path, whole: Path) -> None:
     """It fills before the first case, among the cases, and where the tables are written."""
-    out, whole = tmp_path / "out", tmp_path / "whole"
-    assert study(whole).code == 0
+    out = tmp_path / "out"
     assert max(map(len, contents(whole).values())) > 40_000
     with file_size(limit):
         run = study(out)
@@ -242,19 +251,16 @@ def keep_some(folder: Path, seed: int = 5) -> Path:
 
 
 @pytest.mark.usefixtures("without_figures")
-@pytest.mark.parametrize(
-    "end", [b'{"plan": "published", "ca', b"\0\0\0\0\n\0", b'{"plan": "published", "case": {"index": 5}}\n', b"[]\n", b"[" * 10**5 + b"\n"]
-)
-def test_a_line_that_is_not_whole_does_not_count(end: bytes, tmp_path: Path) -> None:
-    assert study(tmp_path / "whole").code == 0
-    (tmp_path / "out").mkdir()
-    file = keep_some(tmp_path / "out")
-    whole = file.read_bytes()
-    file.write_bytes(whole + end)
-    with keeping(tmp_path / "out", Settings(5, 30), resume=True) as kept:
-        assert kept.count == 4 and file.read_bytes() == whole
-    assert study(tmp_path / "out", "--resume").code == 0
-    assert contents(tmp_path / "out") == contents(tmp_path / "whole")
+def test_a_line_that_is_not_whole_does_not_count(tmp_path: Path, whole: Path) -> None:
+    file = keep_some(tmp_path)
+    lines = file.read_bytes()
+    no_case = b'{"plan": "published", "case": {"index": 5}}\n'
+    for end in (no_case[:25], b"\0\0\0\0\n\0", no_case, b"[]\n", b"[" * 10**5 + b"\n"):
+        file.write_bytes(lines + end)
+        with keeping(tmp_path, Settings(5, 30), resume=True) as kept:
+            assert kept.count == 4 and file.read_bytes() == lines, end[:50]
+    assert study(tmp_path, "--resume").code == 0
+    assert contents(tmp_path) == contents(whole)
 
 
 @pytest.mark.parametrize("first", [b"", b'{"plan": "published", "case": {"a": '])

@@ -49,7 +49,7 @@ def test_without_healthy_samples_zero_is_taken_where_it_may_be_and_means_hide_no
         assert far.n_v is None and "a constant fault would have gone with the means" in far.reason
         assert "only samples without fault can tell it" in far.operating_point.reason
     means = found(y + POINT[2:], u + POINT[:2], operating_point="means")
-    assert means.n_v == 0 and means.operating_point.stated
+    assert means.n_v == 0 and means.operating_point.stated and means.mean is None and not means.moved
     about = identify([y[:200], y[:200] + 10.0], [u[:200], u[:200] - 4.0], order=2)
     assert about.operating_point.of == "single experiments" and about.operating_point.values is None
 

@@ -117,6 +117,7 @@ def changes_within(
     Parameters
     ----------
     residual, y, u : array_like, (N, p), (N, p) and (N, n_u)
+        In any units.
     outputs : list of str, optional
     level : float
         All as of `changes_since_healthy`.

@@ -6,40 +6,10 @@ BY_NAME    the same by slug
 
 from __future__ import annotations
 
-from tests.numeric.audit.unseen import (
-    close_together,
-    corners,
-    far_along,
-    fault_dimension,
-    fault_space,
-    from_records,
-    identify,
-    identify_channels,
-    reconstruct,
-    residual,
-    small_print,
-    structure,
-    structure_ranks,
-    window_ranks,
-)
+from tests.numeric.audit.unseen import corners, from_records, models, ranks, residual, spaces, zeros
 from tests.numeric.audit.unseen.form import Mutants, Unseen
 
-FILES = (
-    identify,
-    identify_channels,
-    residual,
-    window_ranks,
-    fault_dimension,
-    fault_space,
-    reconstruct,
-    structure,
-    structure_ranks,
-    from_records,
-    corners,
-    far_along,
-    close_together,
-    small_print,
-)
+FILES = (models, residual, ranks, spaces, zeros, from_records, corners)
 
 
 def _all() -> tuple[Unseen, ...]:

@@ -21,11 +21,7 @@ def noise(N: int, p: int, seed: int) -> Any:
 
 
 PLAIN = record(plant([0.8, -0.4, 0.3], 2, 2, 51), 200, 51, fault=noise(200, 2, 151))
-ONE = record(plant([0.8, -0.4], 1, 1, 52), 200, 52, fault=noise(200, 1, 152))
-RINGING = record(plant([0.6 + 0.5j], 1, 2, 53), 150, 53, fault=noise(150, 2, 153))
 SLOW = record(plant([0.998, 0.5], 1, 1, 54), 600, 54, fault=noise(600, 1, 154))
-LONG = record(plant([0.9, 0.5], 1, 2, 55), 1500, 55, fault=noise(1500, 2, 155))
-UNSTABLE = record(plant([1.25, 0.5], 1, 2, 56), 100, 56, x0=1e-4)
 
 
 def without_free(r: Any, A: Any, C: Any) -> Any:

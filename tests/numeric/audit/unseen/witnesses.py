@@ -17,7 +17,6 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-import scipy.linalg
 from scipy.optimize import linear_sum_assignment
 
 from faultspace.numeric.audit.adapter import guarded
@@ -171,8 +170,3 @@ def explains(y: Any, u: Any, order: int, n_v: int, truth: tuple[Any, Any, Any], 
     sizes = np.tile(np.sqrt(np.mean(y**2, axis=0)), order + 3)[:, None]
     known = pulses(*truth, order + 2) / sizes
     return answered(lambda got: angle(pulses(got[0], got[1], got[2], order + 2) / sizes, known), y, u, order, n_v, limit=limit)
-
-
-def null_space(matrix: Any) -> Any:
-    """Return columns that span the null space."""
-    return scipy.linalg.null_space(matrix)

@@ -1,4 +1,4 @@
-"""Mistakes in `structure`: the finite zeros."""
+"""Mistakes in `structure`: finite zeros, normal rank, infinite zeros, left-invertibility, matrices that must be refused."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from faultspace.numeric.audit import reference
 from faultspace.numeric.audit.adapter import ZeroStructure
 from tests.numeric.audit.unseen.form import Mutants
-from tests.numeric.audit.unseen.systems import Matrices, channel, general, joined, mixing
+from tests.numeric.audit.unseen.systems import Matrices, channel, general, joined
 from tests.numeric.audit.unseen.witnesses import has_structure
 
 ZEROS = Mutants("structure")
@@ -25,11 +25,8 @@ def kept(matrices: Matrices, keep: Callable[[Any], Any]) -> ZeroStructure:
 
 
 COMPLEX = joined([channel([0.4 + 0.5j], [0.5, -0.3, 0.2])], [[1.0]], 301)
-DEFECTIVE = joined([channel([0.4, 0.4], [0.5, -0.3, 0.1])], [[1.0]], 303)
-AT_ONE = joined([channel([1.0, 0.6], [0.5, -0.3, 0.1])], [[1.0]], 305)
 LARGE = joined([channel([3000.0, 0.5], [0.5, -0.3, 0.1])], [[1.0]], 307)
 HIDDEN = joined([general([0.5, -0.3], 1, 2, 308)], np.eye(2), 308, unobservable=[0.35])
-SQUARE = joined([channel([0.6], [0.5, -0.3]), channel([-0.7], [0.2, 0.7])], mixing(2, 2), 310)
 WIDE = joined([channel([0.6], [0.5, -0.3])], [[1.0]], 314, unobservable=[0.25])
 WIDE = (WIDE[0], np.hstack([WIDE[1], 2 * WIDE[1]]), WIDE[2], np.hstack([WIDE[3], 2 * WIDE[3]]))
 
@@ -63,4 +60,15 @@ def works_with_the_inverse_of_A(A: Any, F: Any, C: Any, G: Any) -> ZeroStructure
     """Zeros are those of the system that runs backward, 1 / q, for which A is inverted."""
     if len(A) and np.linalg.cond(A) > 1e12:
         raise np.linalg.LinAlgError("Singular matrix")
+    return reference.structure(A, F, C, G)
+
+
+STATIC = (np.zeros((0, 0)), np.zeros((0, 1)), np.zeros((2, 0)), np.array([[1.0], [2.0]]))
+# Both faults come through the first channel, at the same sample: [G, C F] has rank one, though the system is invertible.
+
+
+@ZEROS.broken("systems without states", has_structure(STATIC, [], [0]))
+def needs_a_state(A: Any, F: Any, C: Any, G: Any) -> ZeroStructure:
+    """The largest pole is asked for, which a system without states has not."""
+    np.max(np.abs(np.linalg.eigvals(A)))
     return reference.structure(A, F, C, G)
