@@ -405,4 +405,10 @@ def test_what_the_exact_branch_says_of_its_answers() -> None:
 def test_what_exists_for_some_system_is_not_said_of_each() -> None:
     system = exact.ResidualSystem.of([[0]], [[1]], [[1]], [[0]])
     assert "reason" in exact.bad_pair(exact.exceptional(system)).to_json(), "no P of full column rank is bad"
-    assert "they say that something exists for each system" not in text("docs/your-claims.md")
+    page = text("docs/your-claims.md")
+    assert "they say that something exists for each system" not in page
+    windows = {one.id: one for one in load()}["sharp-windows"].readings
+    assert {one.id for one in windows if one.statement.startswith(("Some system", "It can be chosen"))} == {
+        one.id for one in windows if f"claim.sharp-windows--{one.id}" not in text("faultspace/examples/ledger.toml")
+    }
+    assert "`sharp-windows` in part | sums over lists" not in page, "what is not said there is that a system exists"
