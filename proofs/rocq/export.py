@@ -3,7 +3,7 @@
     COVERED      kind -> what writes it
     exported     the terms of a certificate that the checker has verified just now; raises NotCovered, checker.Rejected, checker.Malformed
     translated   the same of one that is well formed, whatever the checker would say of it: tests see that Rocq, too, finds it false
-    written      a file with the theorems about the concrete systems, proved by computation
+    written      a file with the theorems about the concrete systems, proved by computation; FILE is its name
 
 No string of a certificate reaches the file. Every number goes through the checker's own parser (`checker.rational`, `checker.index`) to an
 integer of Python, and what writes integers (`terms.py`) takes nothing else. The checker's meter bounds the work.
@@ -41,7 +41,9 @@ MODULES = (
     "FieldLines", "ExperimentsVocabulary", "Stability", "FieldLimits", "FieldInputs",
 )  # fmt: skip
 # What is stated is read by the words of the vocabularies alone, which the locks hold. Only then come the files that prove it, since
-# one of these could have another meaning for a word.
+# one of these could have another meaning for a word. One could have a module C0, too: so at the end, what is to be proved has its whole
+# name, from that of the file on, which Rocq lets nothing hide that is loaded later.
+FILE = "Certified.v"
 HEAD = f"""From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import {" ".join(name for name in MODULES if name.endswith("Vocabulary"))}.
@@ -86,7 +88,7 @@ def written(terms: Sequence[Terms]) -> str:
     """Return a file with all theorems, which ends by asking what they rest on."""
     claims = "".join(f"Module C{i}.\n{t.claimed()}End C{i}.\n" for i, t in enumerate(terms))
     proofs = "".join(f"Module P{i}.\nImport C{i}.\n{t.proof()}End P{i}.\n" for i, t in enumerate(terms))
-    names = ", ".join(f"P{i}.certified : C{i}.said" for i in range(len(terms)))
+    names = ", ".join(f"P{i}.certified : {FILE.removesuffix('.v')}.C{i}.said" for i in range(len(terms)))
     return f"{HEAD}{claims}{PROOFS}{proofs}Definition certified := ({names or 'I'}).\nPrint Assumptions certified.\n"
 
 

@@ -39,7 +39,7 @@ from ...base.progress import Progress, silent
 from ...base.sheets import counted
 from ..trust import checker
 from .build import CLOSED, BrokenTheory, NotProved, compile_file, compiled_theory, kept_theory
-from .export import HEAD, MODULES, PROOFS, exported, written
+from .export import FILE, HEAD, MODULES, PROOFS, exported, written
 from .listed import NotCovered
 from .locks import held
 from .sources import needs, sources
@@ -111,7 +111,7 @@ def decided(terms: Sequence[Terms], compiled: Path, seconds: float = SECONDS) ->
 def proved(terms: Sequence[Terms], compiled: Path, seconds: float = SECONDS) -> None:
     """Has the kernel accept the theorem of each. Raises NotProved, also when it takes longer."""
     try:
-        said = compile_file(compiled, "Certified.v", written(terms), seconds=seconds)
+        said = compile_file(compiled, FILE, written(terms), seconds=seconds)
     except BrokenTheory as error:
         raise NotProved(str(error)) from None
     if said.strip() != CLOSED:

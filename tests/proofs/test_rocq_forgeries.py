@@ -7,14 +7,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, NotProved, compiled_again
+from faultspace.proofs.rocq.export import translated
 from faultspace.proofs.rocq.locks import held
+from faultspace.proofs.rocq.recompute import proved
 from faultspace.proofs.rocq.sentences import HEADLINES, refusals, refused, sentences
 from faultspace.proofs.rocq.sources import beyond, sources
 from faultspace.proofs.rocq.statements import VOCABULARY, read
+from tests.proofs.examples import INVERTIBLE
 from tests.thorough import every
 
 TEXTS = sources()
@@ -183,6 +188,23 @@ def test_rocq_cuts_sentences_where_we_do() -> None:
         if not refused("Hiding.v", text):
             assert "Definition hidden := 1." in sentences(text), hiding
     assert seen >= 5
+
+
+@pytest.mark.parametrize("around", ["{}", "Module Certified.\n{}End Certified.\n"])
+def test_a_file_of_proofs_cannot_say_what_is_proved_of_a_certificate(theory: Path, tmp_path: Path, around: str) -> None:
+    """It has no lock, and a name that it brings is taken for the one that was there: for the statement about the system, too."""
+    right = translated(INVERTIBLE)
+    false = replace(right, statement=f"~ {right.statement}", check="granted l", lemma="granted_sound")
+    forged = around.format("Module C0.\nDefinition said : Prop := True.\nDefinition l := 0.\nEnd C0.\n")
+    forged += "Definition granted (l : nat) := true.\nLemma granted_sound (l : nat) : granted l = true -> True. Proof. by []. Qed.\n"
+    assert held({**TEXTS, "FieldInputs.v": f"{TEXTS['FieldInputs.v']}\n{forged}"}) == held(TEXTS), "or the forgery is no danger any more"
+    for compiled in theory.glob("*.vo"):
+        if compiled.stem != "FieldInputs":
+            (tmp_path / compiled.name).symlink_to(compiled)
+    head = "From mathcomp Require Import all_ssreflect.\nSet Implicit Arguments.\n"
+    (tmp_path / "FieldInputs.vo").write_bytes(compiled_again({"FieldInputs.v": head + forged})["FieldInputs.v"])
+    with pytest.raises(NotProved, match="does not compile"):
+        proved([false], tmp_path)
 
 
 def test_what_a_vocabulary_says_is_in_the_lock_of_every_headline_that_imports_it() -> None:
