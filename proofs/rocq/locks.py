@@ -24,6 +24,7 @@ import hashlib
 import json
 import sys
 import tomllib
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import resources
@@ -33,7 +34,7 @@ from typing import Any
 from ...base.writing import write_text
 from ..verdict.ledger import expected_without, load
 from .build import NotProved
-from .sentences import refusals
+from .sentences import refusals, short
 from .sources import THEORY, sources
 from .statements import Headline, Statements, read
 
@@ -109,15 +110,17 @@ def made(texts: Mapping[str, str]) -> Locks:
 
 def _readings() -> dict[str, str]:
     """Return the digests of what stands in words or in the language of claims, and is read beside the theorems, by names."""
-    said: dict[str, list[Any]] = {}
+    said: list[tuple[str, list[Any]]] = []
     for claim in load():
-        said[claim.id] = [{**claim.to_json(), "readings": [reading.id for reading in claim.readings]}]
-        said |= {f"{claim.id}.{reading.id}": [claim.statement, reading.to_json()] for reading in claim.readings}
-    said |= {f"without {name}": [verdicts] for name, verdicts in expected_without().items()}
+        said.append((claim.id, [{**claim.to_json(), "readings": [reading.id for reading in claim.readings]}]))
+        said += ((f"{claim.id}.{reading.id}", [claim.statement, reading.to_json()]) for reading in claim.readings)
+    said += ((f"without {name}", [verdicts]) for name, verdicts in expected_without().items())
     for package, path, table in IN_THE_LANGUAGE:
         text = resources.files(package).joinpath(*path).read_text("utf-8")
-        said |= {f"{path[-1]}: {name}": [one] for name, one in tomllib.loads(text)[table].items()}
-    texts = {name: [one if isinstance(one, str) else json.dumps(one, sort_keys=True) for one in several] for name, several in said.items()}
+        said += ((f"{path[-1]}: {name}", [one]) for name, one in tomllib.loads(text)[table].items())
+    if twice := [name for name, count in Counter(name for name, _ in said).items() if count > 1]:
+        raise NotProved(f"what is read beside the theorems has one name twice, and so no lock of its own: {short(ascii(twice[0]))}")
+    texts = {name: [one if isinstance(one, str) else json.dumps(one, sort_keys=True) for one in several] for name, several in said}
     return {name: _sha256(several) for name, several in texts.items()}
 
 

@@ -195,6 +195,18 @@ def test_what_makes_a_claims_verdict_of_its_readings_is_locked(monkeypatch: pyte
             assert said == ([] if spoilt == claim else [NOT_AS_READ.format(claim.id)])
 
 
+@pytest.mark.parametrize("place", [0, len(load())])
+def test_a_claim_with_the_name_of_something_else_has_no_lock_of_its_own(monkeypatch: pytest.MonkeyPatch, place: int) -> None:
+    """One without readings had the lock of a reading, of a hypothesis dropped or of a theorem, where it stood before them."""
+    claims = [*load()]
+    for name in (f"{claims[0].id}.{claims[0].readings[0].id}", *(one for one in made(TEXTS).readings if ": " in one)):
+        forged = [*claims[:place], replace(claims[0], id=name, statement="forged", readings=()), *claims[place:]]
+        monkeypatch.setattr(rocq_locks, "load", lambda forged=forged: forged)
+        with pytest.raises(NotProved, match="one name twice"):
+            rocq_locks._readings()
+        monkeypatch.undo()
+
+
 @pytest.mark.parametrize(
     ("file", "old", "new", "name"),
     [
