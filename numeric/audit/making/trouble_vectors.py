@@ -52,25 +52,32 @@ class Unsuitable(ArithmeticError):
 @one_thread()
 def made(kind: Kind, seed: int) -> Trouble:
     """Return the vectors of the kind with their bounds. Raises ArithmeticError where no draw of ATTEMPTS meets the conditions."""
-    found = unbounded(kind, seed)
+    return _first(kind, seed, lambda found: _bounded(kind, found))
+
+
+def unbounded(kind: Kind, seed: int) -> Trouble:
+    """Return the vectors of the kind without bounds. Raises ArithmeticError as `made` does."""
+    return _first(kind, seed, lambda found: found)
+
+
+def _first(kind: Kind, seed: int, finished: Callable[[Trouble], Trouble]) -> Trouble:
+    reasons = []
+    for attempt in range(ATTEMPTS):
+        rng = Random(f"{kind.slug} {seed} {attempt}")
+        try:
+            return finished(_vectors(kind, kind.drawn(rng), rng))
+        except Unsuitable as reason:
+            reasons.append(str(reason))
+    raise ArithmeticError(f"{kind.slug}, seed {seed}: none of {ATTEMPTS} draws will do: {'; '.join(dict.fromkeys(reasons))}")
+
+
+def _bounded(kind: Kind, found: Trouble) -> Trouble:
     return replace(
         found,
         structure=found.structure and _bounded_structure(found.structure),
         model=found.model and _bounded_model(found.model),
         faults=found.faults and _bounded_faults(found.faults, kind),
     )
-
-
-def unbounded(kind: Kind, seed: int) -> Trouble:
-    """Return the vectors of the kind without bounds. Raises ArithmeticError as `made` does."""
-    reasons = []
-    for attempt in range(ATTEMPTS):
-        rng = Random(f"{kind.slug} {seed} {attempt}")
-        try:
-            return _vectors(kind, kind.drawn(rng), rng)
-        except Unsuitable as reason:
-            reasons.append(str(reason))
-    raise ArithmeticError(f"{kind.slug}, seed {seed}: none of {ATTEMPTS} draws will do: {'; '.join(dict.fromkeys(reasons))}")
 
 
 def _vectors(kind: Kind, system: ResidualSystem, rng: Random) -> Trouble:
@@ -144,7 +151,7 @@ def _radii(apart: Callable[[Array], bool], centres: Sequence[complex]) -> list[f
         while not apart(centre + COARSE * radius * turns):
             radius *= COARSE
             if radius > size / EPS:
-                raise ArithmeticError("rounding may put a zero anywhere")
+                raise Unsuitable("rounding may put a zero anywhere")
         while not apart(centre + radius * turns):
             radius *= FINE
         found[centre] = radius

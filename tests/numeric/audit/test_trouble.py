@@ -47,6 +47,17 @@ def system_of(trouble: Trouble) -> ResidualSystem:
     return ResidualSystem(model.A, model.B, model.C, model.D)
 
 
+@pytest.mark.parametrize("seed", [3, 4, 8])
+def test_a_draw_without_bounds_is_drawn_again(seed: int) -> None:
+    """Its first draw has zeros that rounding may put anywhere."""
+    (kind,) = (one for one in KINDS if one.slug == "small-units")
+    first, found = unbounded(kind, seed).structure, made(kind, seed).structure
+    assert first is not None and found is not None
+    with pytest.raises(ArithmeticError, match="anywhere"):
+        zero_bounds(first.system, first.zeros, first.normal_rank)
+    assert first.system != found.system and 0 < max(found.zero_bounds) < 1
+
+
 def test_drawing_again_gives_the_same_fingerprint() -> None:
     """All that the fingerprint covers is exact: bounds, which it leaves out, are not made here."""
     again = document([unbounded(kind, SEED) for kind in KINDS], SEED)
