@@ -35,7 +35,7 @@ COMMANDS = re.compile(
     |(?:Local\ )?Notation\ (?:{NAME}(?:\ {NAME})*\ :=|"[^"]*"\ :=).*
     |Record\ {NAME}\b.*|Canonical\ {NAME}\ :.*|Implicit\ Types?\ .*|Add\ Ring\ {NAME}\ :\ {NAME}
     |(?:Variables?|Hypothes[ie]s)\ .*|(?:Section|Module|End)\ {NAME}
-    |From\ Coq\ Require\ Import\ (?:ZArith|Ring)|From\ (?:mathcomp|faultspace)\ Require(?:\ Import)?\ {NAMES}
+    |From\ Coq\ Require\ Import\ (?:ZArith|Ring)|From\ (?:mathcomp|faultspace)\ Require(?:\ Import)?\ (?!Export\b){NAMES}
     |Import\ {NAMES}|Include\ Headlines\w*
     |Set\ Implicit\ Arguments|Unset\ Strict\ Implicit|Unset\ Printing\ Implicit\ Defensive
     |Local\ (?:Open|Close)\ Scope\ \w+""",

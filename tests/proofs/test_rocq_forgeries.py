@@ -72,6 +72,7 @@ ASSUMED = [
     "Program Definition bad : False := _.", "#[program] Definition bad : False := _.",
     "#[bypass_check(guard)] Fixpoint f (n : nat) := f n.",
     "Unset Guard Checking.", "Unset Positivity Checking.", "Unset Universe Checking.", "Set Typing Flags.", "Set Definitional UIP.",
+    "From faultspace Require Export Gap.", "From mathcomp Require Export all_algebra.",
     "CoInductive bad := Bad.", "Inductive bad := Bad (_ : bad -> False).", "Symbol bad : False.", "Rewrite Rule a := b.",
     'Declare ML Module "stolen".', 'Add LoadPath "/tmp".', 'Add Rec LoadPath "/tmp".', 'Add ML Path "/tmp".',
     'Load "stolen".', 'Cd "/tmp".',
