@@ -23,15 +23,14 @@ WIDTH = 130  # of lines of numbers
 
 @dataclass(frozen=True)
 class Dialect:
-    """Templates of lines. They know {function}, {given}, {copied} and {names} (its arguments), {answer} (what a call is assigned to) and
-    {what} (a quantity). `assigned` gives the lines that set a variable to a number or an array, `compared` has the lines by what is
-    compared, and a helper is written where its name is used."""
+    """Templates of lines. They know {function}, {given}, {copied} and {names} (its arguments), {answer} (what a call is assigned to),
+    {refused} and {code} (what a refusal means, and the exit code), and {what} (a quantity). `assigned` gives the lines that set a variable
+    to a number or an array, `compared` has the lines by what is compared, and a helper is written where its name is used."""
 
     mark: str
     opening: str
     assigned: Callable[[str, Any], list[str]]
     call: str
-    refusing: str
     compared: Mapping[str, str]
     helpers: Mapping[str, str]
     rows: tuple[str, str]  # begins the list of kernel rows, and adds one
@@ -132,14 +131,14 @@ import numpy as np
 wrong = []
 """,
     assigned=_in_python,
-    call="answer = {function}({given})",
-    refusing="""
+    call="""
 try:
     answer = {function}({given})
 except (ValueError, ArithmeticError) as error:
     answer = print("refused:", error)
 if answer is None:
-    sys.exit(0)  # right: there is nothing to answer""",
+    print("{refused}")
+    sys.exit({code})""",
     helpers={
         "told": """
 
@@ -264,16 +263,15 @@ OCTAVE = Dialect(
     mark="%",
     opening="\nfailed = false;",
     assigned=_in_octave,
-    call="{answer} = {function}({given});",
     # What is no refusal: a wrong index or an unknown name within the function, in Octave's words and in MATLAB's.
-    refusing="""
+    call="""
 try
   {answer} = {function}({given});
 catch problem
   crashes = {'Octave:index-out-of-bounds', 'Octave:bad-index', 'Octave:undefined-function', ...
              'MATLAB:badsubscript', 'MATLAB:UndefinedFunction'};
   if any(strcmp(problem.identifier, crashes)), fprintf('WRONG: a crash: %s\\n', problem.message); exit(1); end
-  fprintf('refused: %s\\nright: there is nothing to answer\\n', problem.message); exit(0);
+  fprintf('refused: %s\\n{refused}\\n', problem.message); exit({code});
 end""",
     helpers={},
     compared={
@@ -361,10 +359,9 @@ function told(what, got, expected, off, bound)
     println("  got      ", got, "\\n  expected ", expected)
 end""",
     assigned=_in_julia,
-    call="answer = {function}({given})",
-    refusing="""
+    call="""
 answer = try {function}({given}) catch problem; println("refused: ", problem); nothing end
-if answer === nothing println("right: there is nothing to answer"); exit(0) end""",
+if answer === nothing println("{refused}"); exit({code}) end""",
     helpers={
         "nearest": """
 function nearest(got, expected)  # in the order of those of expected that they are nearest to

@@ -68,8 +68,8 @@ def _body(check: Check, dialect: Dialect) -> list[str]:
     manner = check.slug if asked.measured and not any(call.due for call in asked.calls) else None
     if manner not in (None, "deterministic", "inputs-untouched"):
         raise InvalidData(f"check {check.full_name}: there is no script of it yet; `faultspace audit --check` shows it")
-    call = dialect.refusing if check.kind is not Demand.MUST_HOLD or asked.may_refuse else dialect.call
-    template = {None: call, "deterministic": dialect.twice, "inputs-untouched": dialect.untouched}[manner]
+    must_answer = check.kind is Demand.MUST_HOLD and not asked.may_refuse
+    template = {None: dialect.call, "deterministic": dialect.twice, "inputs-untouched": dialect.untouched}[manner]
     for one in asked.calls[:1] if manner else asked.calls:
         names = [argument.name for argument in one.arguments]
         lines += side_by_side([dialect.assigned(argument.name, argument.value) for argument in one.arguments])
@@ -80,6 +80,8 @@ def _body(check: Check, dialect: Dialect) -> list[str]:
             "copied": ", ".join(dialect.copied.replace("{}", name) for name in names),
             "answer": answer,
             "names": answer.strip("[]"),
+            "refused": "WRONG: an answer is due" if must_answer else "right: there is nothing to answer",
+            "code": str(int(must_answer)),
         }
         lines += _filled(template, values).strip("\n").splitlines()
         shown = [line for due in one.due for line in compared(dialect, due)]

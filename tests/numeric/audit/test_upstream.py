@@ -455,5 +455,7 @@ def test_the_command_prints_a_script_that_imports_the_adapter(tmp_path: Path) ->
     assert printed.code == 0 and "from mine import Mine" in printed.out
     code, said = executed(printed.out)
     assert code == 1 and "WRONG" in said
+    refusing = printed.out.replace("from mine import Mine", "Mine = type('Mine', (), {'fault_dimension': lambda self, r: None})")
+    assert executed(refusing)[0] == 1 and "WRONG: an answer is due" in executed(refusing)[1]
     unknown = call("audit", f"{mine}:Mine", "--reproduce", "exact-recovery")
     assert unknown.code == 2 and "exact-recovery" in unknown.err and unknown.out == ""

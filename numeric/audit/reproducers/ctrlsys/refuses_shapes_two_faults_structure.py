@@ -48,7 +48,8 @@ try:
 except (ValueError, ArithmeticError) as error:
     answer = print("refused:", error)
 if answer is None:
-    sys.exit(0)  # right: there is nothing to answer
+    print("right: there is nothing to answer")
+    sys.exit(0)
 print("WRONG: answered where a refusal is due\n  got", answer)
 wrong.append(True)
 sys.exit(any(wrong))
