@@ -79,11 +79,18 @@ def read(folder: Path) -> Iterator[dict[str, Any]]:
         yield json.loads(file.read_text("utf-8"))
 
 
+def begun(value: Any) -> Any:
+    """Return a document with the first rows of its arrays, whose numbers are looked at one by one, and are alike."""
+    if isinstance(value, dict):
+        return {name: begun(one) for name, one in value.items()}
+    return [begun(one) for one in value[:5]] if isinstance(value, list) else value
+
+
 def test_every_file_keeps_the_schema_and_the_schema_refuses_others(folder: Path) -> None:
     schema = json.loads((folder / "schema.json").read_text("utf-8"))
     validator = jsonschema.Draft202012Validator(schema)
-    documents = list(read(folder))
-    for one in documents[:: every()]:
+    documents = list(map(begun, read(folder)))
+    for one in documents:
         validator.validate(one)
         assert len(one["recipe"]) > 20 and one["effect"]
     wrong: tuple[dict[str, Any], ...] = ({"demand": "may-hold"}, {"recipe": ""}, {"calls": [{"arguments": []}]}, {"extra": 1})
@@ -348,7 +355,7 @@ def test_scripts_of_manners_and_growth_notice_what_they_are_for() -> None:
     text = script("inputs-untouched[one-fault]-fault_dimension", FUNCTIONS, "python")
     assert executed(text, {"fault_dimension": writing})[0] == 1
     text = script("memory-grows-with-N*-fault_dimension", FUNCTIONS, "python")
-    assert executed(text, {"fault_dimension": lambda r: float(np.sum(np.ones((len(r), len(r)))))})[0] == 1
+    assert executed(text, {"fault_dimension": lambda r: float(np.sum(np.ones((len(r), len(r)), dtype=np.int8)))})[0] == 1
     assert executed(text, {"fault_dimension": lambda r: 1})[0] == 0
     with pytest.raises(InvalidData, match="Python alone"):
         script("memory-grows-with-N*-fault_dimension", FUNCTIONS, "octave")
