@@ -35,7 +35,6 @@ from .planting import (
     late,
     pair,
     resized,
-    scaled_direct,
     series,
     spiked,
     tall,
@@ -222,7 +221,8 @@ def _direct(size: Fraction) -> Callable[[Random], ResidualSystem]:
     """The first column of G is of this size."""
 
     def generate(rng: Random) -> ResidualSystem:
-        return scaled_direct(tall(rng, 3, 2, 3), size, [0])
+        system = tall(rng, 3, 2, 3)
+        return system.with_faults(system.F, matrix([[x * size, *others] for x, *others in fractions(system.G)], system.m))
 
     return generate
 
