@@ -325,6 +325,7 @@ def test_every_bound_is_what_claim_says_of_it(target: str, hypotheses: list[str]
         assert claimed(text, hypotheses, {"total": 4}).verdict != Answered.REFUTED
 
 
+@pytest.mark.searches
 def test_a_claim_is_sharpened_to_what_willsky_shows() -> None:
     found = sharpened("delay_known <= n - nullity(G)", "left_invertible", "nullity(G) >= 1")
     assert found.own is not None and found.own.text == "delay_known <= n - nullity(G) + 1"
@@ -334,6 +335,7 @@ def test_a_claim_is_sharpened_to_what_willsky_shows() -> None:
     check([found.own, *found.words, *found.others], ["left_invertible", "nullity(G) >= 1"], {"total": 4})
 
 
+@pytest.mark.searches
 @pytest.mark.parametrize(
     ("conclusion", "hypotheses", "own", "refuted"),
     [
@@ -352,6 +354,7 @@ def test_the_least_constant(conclusion: str, hypotheses: list[str], own: str, re
     assert (claimed(conclusion, hypotheses, SMALL).verdict == Answered.REFUTED) == refuted
 
 
+@pytest.mark.searches
 def test_known_results_are_found_again(all_outside: None) -> None:
     """The lag from the solutions of problem (11), the delay from the infinite zeros, and that knowing x(0) helps; no false one comes."""
     lag = fs.conjecture("lag", by=["n", "normal_rank", "n_z"], box={"total": 4})
@@ -365,6 +368,7 @@ def test_known_results_are_found_again(all_outside: None) -> None:
     assert zeros.equal == ("n_z == normal_rank + weakly_unobservable_dimension + infinite_zeros",)
 
 
+@pytest.mark.searches
 def test_what_is_a_bound_in_the_box_alone_falls(all_outside: None) -> None:
     """This one has no counterexample in the default box, on the known systems or on direct sums; a drawn system refutes it."""
     by = ["normal_rank", "observability_index", "rank(G)"]

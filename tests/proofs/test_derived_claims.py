@@ -115,6 +115,7 @@ def test_what_only_looks_like_a_theorem_is_not_proved(conclusion: str, hypothese
     assert proved(conclusion, *hypotheses) is None
 
 
+@pytest.mark.searches
 def test_a_claim_of_the_ledger_is_proved_just_where_rocq_has_proved_it() -> None:
     verdicts = {f"{one.id}--{reading.id}": reading.proved for one in load() for reading in one.readings}
     listed = [one for one in readings().values() if one.about == SYSTEM]  # the theorems in the language are about single systems

@@ -128,6 +128,7 @@ def test_a_certificate_on_which_several_rest_is_counted_once(monkeypatch: pytest
     assert results[0].to_json()["certificates_accepted"] == results[0].outcome.accepted
 
 
+@pytest.mark.searches
 def test_a_second_run_of_the_same_process_counts_what_it_has_decided_itself(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is kept of a system is kept for one run, though the processes that do the work outlive it."""
     checks = [Check("example_v.one_fault"), Check("zeros_of_pairs.number"), Check("canonical_form.popov_rows")]

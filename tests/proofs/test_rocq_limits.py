@@ -191,6 +191,7 @@ def input_forgeries(regression: Certificate, output_error: Certificate) -> list[
     return found
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_inputs_by_either_regression_are_recomputed_and_no_others() -> None:
     """Every table of the terms is looked at: with one entry more by one the check is false, and so are stability and both ranks."""

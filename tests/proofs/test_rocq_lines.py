@@ -240,6 +240,7 @@ def test_a_common_zero_over_an_extension_is_seen() -> None:
     assert questions.wrong() == []
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_a_proof_of_something_false_does_not_compile() -> None:
     terms = told(tried(OVER_AN_EXTENSION["a^2 + b^2 over Q"]), Random(1))
@@ -261,6 +262,7 @@ SMALL = {
 }  # fmt: skip
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_smallest_lines_are_proved() -> None:
     certificates = [written(make.left_invertible_line(*pair)) for pair in SMALL.values()]
