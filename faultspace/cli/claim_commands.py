@@ -9,18 +9,21 @@ from typing import Annotated
 
 import typer
 
-from ..base.errors import InvalidInput
+from ..base.errors import InvalidInput, shorten
 from .option_types import BoxJobs, Certificates, Effort, Jobs, Json, Scheduler, Verbose, number
 
 
 def verify(
+    stray: Annotated[list[str] | None, typer.Argument(hidden=True)] = None,
+    *,
     effort: Annotated[Effort, typer.Option(help="Samples of systems; or every small one, for the background.")] = Effort.quick,
     claim: Annotated[
-        list[str] | None, typer.Option("--claim", metavar="ID", help="Only this claim, a page of it; may be repeated.")
+        list[str] | None, typer.Option("--claim", metavar="ID", help="Only this claim, its card; may be repeated.")
     ] = None,
     jobs: Jobs = None,
     scheduler: Scheduler = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the headline certificates and verdicts.json there.")] = None,
+    rocq: Annotated[bool, typer.Option("--rocq", help="Have Rocq check the theorems; the first time, compile them: minutes.")] = False,
     recheck: Annotated[
         bool, typer.Option("--recheck", help="First compile the Rocq theory anew, whatever is cached, and let coqchk read it.")
     ] = False,
@@ -32,10 +35,13 @@ def verify(
 ) -> int:
     """Decide the claims of the paper.
 
-    A claim gets a line; -v adds the long tables, --claim prints a page of one. Exit 0 if every verdict is the expected one, else 1.
+    A claim gets a sentence, with --claim a card; -v prints all readings. Exit 0 if every verdict is the expected one, else 1.
     """
     from . import verifying
 
+    if stray:
+        near = verifying.nearest(stray[0])
+        raise InvalidInput(f"verify: got {shorten(stray[0])}, expected options; try: faultspace verify --claim {near}")
     workers = jobs or (os.cpu_count() or 1 if scheduler is None else -1)
     return verifying.run(
         claim or [],
@@ -43,6 +49,7 @@ def verify(
         jobs=workers,
         scheduler=scheduler,
         out=out,
+        rocq=rocq,
         recheck=recheck,
         verbose=verbose,
         as_json=json,
