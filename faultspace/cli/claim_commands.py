@@ -17,9 +17,7 @@ def verify(
     stray: Annotated[list[str] | None, typer.Argument(hidden=True)] = None,
     *,
     effort: Annotated[Effort, typer.Option(help="Samples of systems; or every small one, for the background.")] = Effort.quick,
-    claim: Annotated[
-        list[str] | None, typer.Option("--claim", metavar="ID", help="Only this claim, its card; may be repeated.")
-    ] = None,
+    claim: Annotated[list[str] | None, typer.Option("--claim", metavar="ID", help="Only this claim, its card; may be repeated.")] = None,
     jobs: Jobs = None,
     scheduler: Scheduler = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the headline certificates and verdicts.json there.")] = None,

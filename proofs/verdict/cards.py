@@ -279,5 +279,3 @@ def hold(result: ClaimResult) -> str:
     """Return how many readings of a claim hold."""
     refuted = sum(one.outcome.verdict == Verdict.REFUTED for one in result.readings)
     return f"readings that hold: {len(result.readings) - refuted} of {len(result.readings)}"
-
-
