@@ -215,6 +215,7 @@ def identify(
     scheduler: Annotated[
         str | None, typer.Option(metavar="ADDRESS", help="Have the Dask cluster with this scheduler share the work of long records.")
     ] = None,
+    verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Print all evidence, too.")] = False,
     json: Json = False,
 ) -> int:
     """Find model and faults in measured data.
@@ -232,7 +233,7 @@ def identify(
     level = noise_level[0] if noise_level and len(noise_level) == 1 else noise_level or None
     known: dict[str, Any] = {"order": order, "block_rows": block_rows, "n_v": faults, "healthy": healthy_until}
     known |= {"noise_level": level, "operating_point": operating_point, "dt": dt}
-    told: dict[str, Any] = {"inputs": inputs or [], "outputs": outputs or [], "gaps": gaps, "scheduler": scheduler}
+    told: dict[str, Any] = {"inputs": inputs or [], "outputs": outputs or [], "gaps": gaps, "scheduler": scheduler, "verbose": verbose}
     return identifying.run(data, known, healthy=healthy, out=out, as_json=json, **told)
 
 
