@@ -47,8 +47,8 @@ def verify(
 ) -> Report:
     """Decide every claim of the ledger, or those with the ids `claims`, now: each reading gets a verdict and the evidence it rests on.
 
-    Most claims take tens of seconds, because the systems and certificates that their readings rest on are made anew; the one of the example
-    below needs less than a second. The claims are those of [G25].
+    Most claims take seconds, or tens of them on a busy machine, because the systems and certificates that their readings rest on are made
+    anew; the one of the example below needs less than a second. The claims are those of [G25].
 
     Parameters
     ----------

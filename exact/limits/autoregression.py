@@ -50,10 +50,10 @@ from .process import Signal
 class ARXLimit(Shown):
     """The limit of an ARX model of h lags: `outputs` has I, A_1, .., A_h (p x p), `inputs` has B_0, .., B_h (p x nu).
 
-    `innovation` (p x p) is the covariance of e, and `open_loop` tells whether u and the faults are uncorrelated at all lags. `misfit` is
-    tr S^-1 Cov((A G - B) u), the power, in units of the innovations, of the errors of prediction that the plant's bias makes; None where
-    the loop is not open, or S singular. The plant of n states that the estimator reduces this model to has at most four times that. Source:
-    [LW92], [W89]. Raises nothing.
+    `innovation` (p x p) is the covariance of e, and `open_loop` tells whether u is uncorrelated at all lags with what faults and noise do
+    to the outputs. `misfit` is tr S^-1 Cov((A G - B) u), the power, in units of the innovations, of the errors of prediction that the
+    plant's bias makes; None where the loop is not open, or S singular. The plant of n states that the estimator reduces this model to has
+    at most four times that. Source: [LW92], [W89]. Raises nothing.
 
     >>> from faultspace.exact import arx_limit, read_experiment
     >>> system = {"A": [["1/2"]], "B": [[1]], "C": [[1]], "D": [[0]], "F": [["1/2"]], "G": [[1]]}
@@ -161,7 +161,7 @@ def arx_limit(experiment: Experiment, lags: int) -> ARXLimit:
     outputs = (Matrix.identity(QQ, p), *(-block.columns(range(p)) for block in blocks))
     inputs = (coefficients.columns(range(lags * width, lags * width + nu)), *(block.columns(range(p, width)) for block in blocks))
     innovation = whole.rows(now).columns(now) - coefficients @ crossed
-    open_loop = _uncorrelated(experiment.u_filter, experiment.v_filter)
+    open_loop = _uncorrelated(experiment.u_filter, experiment.v_filter) or _unseen(experiment)
     misfit = _misfit(experiment, outputs, inputs, innovation) if open_loop else None
     return ARXLimit(outputs, inputs, innovation, open_loop, misfit)
 
@@ -213,3 +213,15 @@ def _uncorrelated(u: Filter, v: Filter) -> bool:
         if not total.is_zero():
             return False
     return True
+
+
+def _unseen(experiment: Experiment) -> bool:
+    """This tells whether what faults and noise do to the outputs is uncorrelated with u at all lags.
+
+    Both halves of the sequence of these covariances are H Phi^l K, so that each is zero where it is on as many lags as there are states.
+    """
+    system = experiment.system
+    rest = replace(system, B=system.B - system.B, D=system.D - system.D)
+    known = covariances(replace(experiment, system=rest))
+    most = known.process.Phi.nrows
+    return all(block.is_zero() for block in known.sequence(known.process.y, known.process.u, -most, most).values())

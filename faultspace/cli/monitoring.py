@@ -153,7 +153,8 @@ class _Watch:
         if self._as_json:
             text = json.dumps({"summary": watch.to_json() | {"bad_lines": bad}})
         else:
-            text = lines(f"\n{watch.summary()}") + (f"\n{counted(bad, 'line')} that were no samples" if bad else "")
+            lost = "was no sample" if bad == 1 else "were no samples"
+            text = lines(f"\n{watch.summary()}") + (f"\n{counted(bad, 'line')} that {lost}" if bad else "")
         sys.stdout.write(text + "\n")
         sys.stdout.flush()
         return saved

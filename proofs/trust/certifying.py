@@ -139,7 +139,7 @@ def certify(subject: System | Experiment | Mapping[str, Any], kind: str, **optio
     InvalidInput
         For an unknown kind (the message names the kinds), options that do not go with it and a subject of the wrong type.
     Unprovable
-        Where the statement is not true.
+        Where the statement is not true, or has no witness: over a small prime field, or where an input excites too few samples.
 
     Examples
     --------
