@@ -26,6 +26,7 @@ from faultspace.proofs.quantities.records import OF_A_RECORD
 from faultspace.proofs.quantities.registry import Kind, Quantity, quantities
 from faultspace.proofs.verdict.ledger import Claim, expected_without, load
 from faultspace.proofs.verdict.picture import Line, draw
+from faultspace.proofs.verdict.review_points import review
 from faultspace.proofs.verdict.verdicts import Verdict, of_readings
 
 DOCS = Path(__file__).parents[1]
@@ -119,6 +120,15 @@ def quantities_table() -> list[str]:
     ]
 
 
+def review_table() -> list[str]:
+    """The table of review.md has a row for each point of the review, in its order."""
+    rows = ["| the review says | what is true | claims |", "|---|---|---|"]
+    for section, points in groupby(review(), key=lambda point: point.section):
+        rows.append(f"| **{section}** | | |")
+        rows += [f"| {point.says} | {point.true} | {', '.join(point.cards)} |".replace("|  |", "| |") for point in points]
+    return rows
+
+
 def _quantities_table(listed: Mapping[str, Quantity]) -> list[str]:
     rows = ["| name | what it is | meaning | borne by certificates |", "|---|---|---|---|"]
     for name, one in sorted(listed.items(), key=lambda item: (item[1].windowed, list(Kind).index(item[1].kind), item[0])):
@@ -136,6 +146,7 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "adversary.md": attacks_table,
     "claims.md": claims_table,
     "hypotheses.md": hypotheses_table,
+    "review.md": review_table,
     "your-claims.md": quantities_table,
 }
 
