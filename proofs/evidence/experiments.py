@@ -420,20 +420,11 @@ def experiments_in_order(drives: Sequence[Drive]) -> Iterator[Experiment]:
     """Small experiments, n = m = nu = 1, F = 1, D = 0: p = 1, 2; A = 0, 1/2; B, C, G with entries 0, 1, -1, 2; then the drives."""
     values = ("0", "1", "-1", "2")
     for p in (1, 2):
-        for A in ("0", "1/2"):
-            for B in values:
-                for columns in _columns(values, p):
-                    C, G = columns[:p], columns[p:]
-                    system = {"A": [[A]], "F": [["1"]], "B": [[B]], "C": [[c] for c in C], "G": [[g] for g in G], "D": [["0"]] * p}
-                    for drive in drives:
-                        yield drive(system)
-
-
-def _columns(values: Sequence[str], p: int) -> Iterator[tuple[str, ...]]:
-    columns: list[tuple[str, ...]] = [()]
-    for _ in range(2 * p):
-        columns = [(*column, value) for column in columns for value in values]
-    return iter(columns)
+        for A, B, *columns in product(("0", "1/2"), *[values] * (1 + 2 * p)):
+            C, G = columns[:p], columns[p:]
+            system = {"A": [[A]], "F": [["1"]], "B": [[B]], "C": [[c] for c in C], "G": [[g] for g in G], "D": [["0"]] * p}
+            for drive in drives:
+                yield drive(system)
 
 
 LIMITS = Material("limits", "population limits", _sources, _examined, 10)
