@@ -84,7 +84,6 @@ class LimitEvidence:
     within: bool
     equal: bool
     past_outputs_within: bool
-    past_outputs_equal: bool
     limit_rank: int
     inputs_right: bool
     state_inputs: tuple[Matrix, Matrix] | None
@@ -163,7 +162,7 @@ def _evidence(
     of_input = found.known.sequence(process.u, process.u, 1, largest)
     true = experiment.system.B.to_json(), experiment.system.D.to_json()
     state_inputs = None if found.true_AC is None else (found.true_AC.B, found.true_AC.D)
-    (joint, seen, inside), (outer_joint, outer_seen, outside) = ranks
+    (joint, seen, inside), (outer_joint, outer_seen, _) = ranks
     return LimitEvidence(
         origin=origin,
         experiment=experiment,
@@ -178,7 +177,6 @@ def _evidence(
         within=joint == seen,
         equal=joint == seen == inside,
         past_outputs_within=outer_joint == outer_seen,
-        past_outputs_equal=outer_joint == outer_seen == outside,
         limit_rank=inside,
         inputs_right=all(one == true for one in inputs),
         state_inputs=state_inputs,
