@@ -11,7 +11,6 @@ from typing import Any
 
 from flint import fmpq_mat, fmpq_poly, fmpz_poly, nmod, nmod_mat
 
-
 REDUCERS: dict[type, Callable[[Any], tuple[Any, ...]]] = {
     nmod: lambda x: (int(x), x.modulus()),
     fmpq_poly: lambda f: (f.coeffs(),),
