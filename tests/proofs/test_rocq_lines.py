@@ -17,8 +17,8 @@ from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.rocq import build as rocq_build
 from faultspace.proofs.rocq.build import NotProved
 from faultspace.proofs.rocq.export import translated
-from faultspace.proofs.rocq.export_fields import system_of
 from faultspace.proofs.rocq.export_lines import shown_at
+from faultspace.proofs.rocq.numbered import system_of
 from faultspace.proofs.rocq.recompute import ACCEPTED, proved, recomputed, theory
 from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.rocq.terms import Terms
