@@ -8,12 +8,9 @@ values   the numbers that the certificates of a refuted reading state, by the na
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from fractions import Fraction
-from functools import lru_cache
-from importlib import resources
 from typing import Any
 
 from ...base.sheets import counted
@@ -21,10 +18,9 @@ from ...exact.algebra.matrices import Matrix, beside, rank, right_null_space
 from ...exact.system.systems import ResidualSystem, read_system, residual_of
 from ...exact.system.windows import window_matrix
 from ..trust.structure_certificates import Certificate
-from .ledger import OURS
+from .ledger import sentences
 from .verdicts import ClaimResult, ReadingResult, Report, Verdict
 
-FILE = "cards.toml"
 MOST_NAMED = 3  # theorems that a card names
 Put = Callable[[str, Any], None]
 
@@ -65,7 +61,6 @@ def card(result: ClaimResult) -> Card:
     """Return the card of a claim. Its sentences are withheld where a verdict is not the expected one: then it says which."""
     claim = result.claim
     words = sentences().get(claim.id) or {"verdict": f"{result.verdict.meaning}.", "instead": ""}
-    group = "ours" if claim.reference.startswith(OURS) else "review" if claim.id.startswith(("settle-", "objection-")) else "paper"
     if result.as_expected:
         named = {one.reading.id: one for one in result.readings}
         shown = [(named[name], sentence) for name, sentence in words.get("wrong", {}).items()]
@@ -77,7 +72,7 @@ def card(result: ClaimResult) -> Card:
         different = different or [f"the claim is {result.verdict}, {result.expected} expected"]
         verdict, instead, wrong = f"NOT as expected: {'; '.join(different)}.", "", ()
     why = tuple(_reasons(result))
-    return Card(claim.id, group, claim.reference, claim.statement, str(result.verdict), verdict, wrong, instead, why)
+    return Card(claim.id, claim.group, claim.reference, claim.statement, str(result.verdict), verdict, wrong, instead, why)
 
 
 def with_cards(report: Report) -> dict[str, Any]:
@@ -85,13 +80,6 @@ def with_cards(report: Report) -> dict[str, Any]:
     found = report.to_json()
     for said, result in zip(found["claims"], report.claims, strict=True):
         said["card"] = card(result).to_json()
-    return found
-
-
-@lru_cache(maxsize=1)
-def sentences() -> Mapping[str, Any]:
-    """Return what cards.toml says, by claims."""
-    found: Mapping[str, Any] = tomllib.loads(resources.files(__package__).joinpath(FILE).read_text("utf-8"))["card"]
     return found
 
 

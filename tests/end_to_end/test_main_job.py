@@ -14,8 +14,8 @@ import pytest
 import faultspace.proofs
 from faultspace.cli.claim_cards import card_lines
 from faultspace.proofs.trust.structure_certificates import sha256
-from faultspace.proofs.verdict.cards import Card, Wrong, sentences
-from faultspace.proofs.verdict.ledger import load
+from faultspace.proofs.verdict.cards import Card, Wrong
+from faultspace.proofs.verdict.ledger import load, sentences
 from tests.oracle import truth
 
 from .commands import command

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import pytest
 
-from faultspace.proofs.verdict.cards import card, hold, sentences
-from faultspace.proofs.verdict.ledger import Claim, load
+from faultspace.proofs.verdict.cards import card, hold
+from faultspace.proofs.verdict.ledger import Claim, load, sentences
 from faultspace.proofs.verdict.verdicts import ClaimResult, Outcome, ReadingResult, Verdict
 from faultspace.proofs.verification import verify
 
