@@ -27,11 +27,16 @@ Put = Callable[[str, Any], None]
 
 @dataclass(frozen=True)
 class Wrong:
-    """What goes wrong in a reading: `system` is the counterexample, `sentence` says with its numbers what it does."""
+    """What goes wrong in a reading: `system` is the counterexample, `sentence` says with its numbers what it does.
+
+    `matrices` are its matrices by name, as rows of texts, and `others` those in which a second system differs.
+    """
 
     reading: str
     system: str
     sentence: str
+    matrices: Mapping[str, list[list[str]]]
+    others: Mapping[str, list[list[str]]]
 
 
 @dataclass(frozen=True)
@@ -85,18 +90,15 @@ def with_cards(report: Report) -> dict[str, Any]:
 
 def _wrong(result: ReadingResult, sentence: str) -> Wrong:
     certificates = result.outcome.certificates
-    return Wrong(result.reading.id, _shown(certificates[0]["statement"]), sentence.format(**values(certificates)))
-
-
-def _shown(statement: Mapping[str, Any]) -> str:
-    """Return the matrices of the system or the experiment that a certificate speaks of, and those in which a second one differs."""
-    system = _subject(statement)
-    second = statement.get("second", {})
-    words = ", ".join(f"{name} = {_text(system[name])}" for name in "ABCDFG" if name in system)
-    other = ", ".join(f"{name} = {_text(second[name])}" for name in "ACFG" if name in second and second[name] != system[name])
+    said = certificates[0]["statement"]
+    system, second = _subject(said), said.get("second", {})
+    matrices = {name: _entries(system[name]) for name in "ABCDFG" if name in system}
+    others = {name: _entries(second[name]) for name in "ACFG" if name in second and second[name] != system[name]}
+    words = ", ".join(f"{name} = {_text(rows)}" for name, rows in matrices.items())
+    also = "; and with " + ", ".join(f"{name} = {_text(rows)}" for name, rows in others.items()) if others else ""
     sizes = f"; s = {system['s']}, past = {system['past']}" if "s" in system else ""
     field = " over Q(a)" if "field" in system else ""
-    return f"{words}{field}{sizes}" + (f"; and with {other}" if other else "")
+    return Wrong(result.reading.id, f"{words}{field}{sizes}{also}", sentence.format(**values(certificates)), matrices, others)
 
 
 def _subject(statement: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -106,12 +108,16 @@ def _subject(statement: Mapping[str, Any]) -> Mapping[str, Any]:
 
 def _text(rows: Sequence[Sequence[Any]]) -> str:
     """Return a matrix on one line, a number alone where it has one entry, and its columns with a prime where it is one column."""
-    entries = [[_entry(x) for x in row] for row in rows]
+    entries = _entries(rows)
     if len(entries) == 1 and len(entries[0]) == 1:
         return entries[0][0]
     if entries and all(len(row) == 1 for row in entries):
         return f"({', '.join(row[0] for row in entries)})'"
     return f"[{'; '.join(' '.join(row) for row in entries)}]"
+
+
+def _entries(rows: Sequence[Sequence[Any]]) -> list[list[str]]:
+    return [[_entry(x) for x in row] for row in rows]
 
 
 def _entry(x: Any) -> str:
