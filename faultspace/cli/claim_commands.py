@@ -113,7 +113,7 @@ def conjecture(
     about: Annotated[
         str, typer.Option(metavar="KIND", help="What is bounded: system, pair, 'pair with the same (A, C)', choice or record.")
     ] = "system",
-    field: Annotated[str, typer.Option(metavar="FIELD", help="Q, or GF(q).")] = "Q",
+    field: Annotated[str, typer.Option(metavar="FIELD", help="Q, GF(q), or Q(a) with a polynomial.")] = "Q",
     box: Annotated[
         list[str] | None, typer.Option(metavar="KEY=VALUE", help="As n=1:3, total=5, entries=-1,0,1, or k, nu, N; may be repeated.")
     ] = None,

@@ -59,7 +59,7 @@ def claim(
     hypotheses : list of str or callable
         Likewise.
     fields : list of str
-        "Q" and "GF(q)".
+        "Q", "GF(q)", and number fields such as "Q(a) with a^2 - 2 = 0".
     box : dict, optional
         "n", "m", "p" (first and last number of states, faults, outputs), "total" (the largest n + m + p) and "entries"; "k" of a choice,
         "nu" and "N" of a record.
