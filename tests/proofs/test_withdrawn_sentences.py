@@ -24,7 +24,7 @@ ROOT = Path(__file__).parents[2]
 PAPERS, LITERATURE = "faultspace/examples/papers.toml", "faultspace/examples/literature.toml"
 CLAIMS, CHOICES = "faultspace/examples/claims.toml", "faultspace/examples/choices.toml"
 GLOSSARY, CONCEPTS, CONSISTENCY = "docs/glossary.md", "docs/concepts.md", "docs/consistency.md"
-README, SENTENCES, SPEED = "README.md", "faultspace/review/sentences.toml", "docs/speed.md"
+README, SENTENCES, SPEED = "README.md", "proofs/verdict/cards.toml", "docs/speed.md"
 PAST_OUTPUTS = "numeric/method/model/past_outputs.py"
 
 UNMOVED: dict[str, Any] = {"A": [[0]], "F": [[0]], "C": [[1]], "G": [[0]]}  # a fault that nothing feels
