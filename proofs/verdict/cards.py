@@ -261,7 +261,7 @@ def _reasons(result: ClaimResult) -> list[str]:
         reasons.append(f"{counted(len(names), 'theorem')} {how}: {', '.join(names[:MOST_NAMED])}{more} (proofs/theory/headlines).")
     accepted = len({one for reading in readings for one in reading.outcome.all_decided})
     if accepted:
-        command = f"faultspace verify --claim {result.claim.id} --out RUN && faultspace check RUN"
+        command = f"faultspace verify --claim {result.claim.id} --out RUN && faultspace check RUN/*-*.json"
         reasons.append(f"{counted(accepted, 'certificate')} accepted by the checker in this run. To check those of the readings: {command}")
     tried = [one.reading.id for one in readings if one.outcome.verdict == Verdict.CERTIFIED]
     if tried:
