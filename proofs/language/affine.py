@@ -14,8 +14,8 @@ their difference is not constant it changes its sign at one place only. Between 
 changes, and neither does the expression, which is made of comparisons by `and`, `or`, `not`, `implies`, `iff`. What it is at a, ..., S, and
 at the last integer up to each place and the two after it, is therefore all that it is from a on. Source: [F75], [VD79].
 
-Where a factor without s is infinite, a product is inf or -inf by the sign of the other factor, which is linear: the place where that is 0 is
-one of those places, too.
+Where a factor without s is infinite, a product is inf or -inf by the sign of the other factor, which is linear: the place where that is 0
+is one of those places, too.
 
 Of two systems n is the larger number of states: the ranks of each are linear from n + 1 on, and whether their outputs of s samples are
 equal, or those of one among those of the other, stays as it is from n + 1 on, since no kernel row of either has a larger degree than n.
