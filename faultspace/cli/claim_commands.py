@@ -97,6 +97,8 @@ def claim(
 
     Each is refuted by a counterexample, the smallest of its box where that has one, proved, not refuted, or vacuous. The page
     docs/your-claims.md tells the language. Exit 1 where a claim names the verdict that it expects and gets another one.
+
+    Example: faultspace claim example:claims
     """
     from . import claiming
 
@@ -141,6 +143,8 @@ def conjecture(
     What is answered is refuted by nothing that was tried and attained by a system (a pair, a choice, a record), none is implied
     by the others, and the next sharper ones come with the smallest one that refutes them. It is no proof; docs/your-claims.md
     tells the language.
+
+    Example: faultspace conjecture lag --by n
     """
     from . import conjecturing
 

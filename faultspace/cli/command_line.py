@@ -153,6 +153,8 @@ def limit(
 
     The limits of PI-MOESP and PO-MOESP are exact, for filtered white noise as input and fault. An experiment is a system with B and D, the
     block rows "s" and "past", and "u_filter", "v_filter", "w_filter": matrices over lag.
+
+    Example: faultspace limit example:fault-follows-input
     """
     from . import limiting
 
@@ -370,6 +372,8 @@ def audit(
     The answers are known exactly; exit 1 if a must is not met. The adapter has some of: identify, residual, window_ranks, fault_dimension,
     fault_space, reconstruct, structure, count_faults, identified_fault_space. It runs in a process of
     its own: what hangs, crashes, forks or takes too much memory is told as that, and the next check goes on.
+
+    Example: faultspace audit mine.py --quick
     """
     from . import auditing
 

@@ -56,6 +56,9 @@ def run(
         raise InvalidInput("--healthy: got --healthy-until as well, expected one of them: a file without fault, or the number of samples")
     if not (inputs and outputs):
         read_record(files[0], inputs=inputs, outputs=outputs)  # refuses, and says what there is
+    for name in files:
+        if not Path(name).exists():
+            read_record(name, inputs=inputs, outputs=outputs)  # refuses, before what else is missing is told
     if out is None:
         raise InvalidInput("--out: got none, expected a folder for the answer: try --out answer")
     worded = as_options if healthy is None else of_file

@@ -201,6 +201,8 @@ def _ready(name: str, inputs: list[str], outputs: list[str], watching: Watching)
     """Return what is in the file of a model or a saved monitor, or in the folder that `identify` wrote; the names are those of the file
     unless given."""
     path = str(Path(name) / MODEL) if Path(name).is_dir() else name
+    if path != name and not Path(path).exists():
+        raise InvalidInput(f"{quote_path(name)}: has no {MODEL}, expected a folder that identify wrote; try: faultspace identify --help")
     document = read_json(path)
     calibrating = watching.healthy is not None or watching.healthy_until is not None
     with in_file(path):

@@ -146,7 +146,9 @@ def _meanings(nodes: Sequence[Node]) -> Iterator[Formula]:
             rows, columns = sides(one, {})
         except (Unknown, KeyError):
             continue
-        yield from (AtMostZero(zero - rank), AtMostZero(rank - rows), AtMostZero(rank - columns))
+        yield AtMostZero(zero - rank)
+        for side in (rows, columns):  # zeros(n - m, p) has no rank where n < m
+            yield Either((AtMostZero(side + number(1)), AtMostZero(rank - side)))
     for name, whole, part in parts_of_extremes(nodes, {}):
         smaller, larger = (part, whole) if name == "max" else (whole, part)
         if smaller != larger:

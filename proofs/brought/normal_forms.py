@@ -241,6 +241,11 @@ def _alone(one: Sum, infinite: frozenset[Atom]) -> Atom | None:
     return None
 
 
+def _may_be_minus_infinity(one: Sum) -> bool:
+    infinite = _infinite(one)
+    return any(infinite & set(product) and (len(product) > 1 or times < 0) for product, times in one.terms)
+
+
 def _infinite(one: Sum) -> frozenset[Atom]:
     return frozenset(atom for atom in one.atoms if not atom.finite)
 
@@ -326,6 +331,8 @@ def _item(node: Node, env: Env) -> Sum:
 def _gathered(node: Node, env: Env) -> Sum:
     if node.args[0].kind != Kind.LIST:
         parts = sorted({total(part, env) for part in node.args}, key=str)
+        if any(map(_may_be_minus_infinity, parts)):  # an atom that is not inf is calculated with
+            raise Unknown(node.text)
         if len(parts) == 1:
             return parts[0]
         finite = [not _infinite(part) for part in parts]

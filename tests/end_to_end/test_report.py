@@ -197,6 +197,7 @@ def test_the_page_is_small_and_complete(records: Records, page: Path) -> None:
     assert "faultspace verify --effort quick --claim example-v --out RUN &amp;&amp; faultspace report --run RUN" in text
     for one in records.run.origin["checkers"]:
         assert one["sha256"] in text
+    assert "whoever could write there could write them" in text[text.index('id="trust"') : text.index('id="controls"')]
     assert '<a class="word" href="#word-lag">' in text and '<dt id="word-lag">' in text
     assert "<math" in text and "F = (1, a, a^2)" not in text and "<msup><mi>a</mi><mn>2</mn></msup>" in text
     plain = html.unescape(re.sub(r"<[^>]*>", "", text))

@@ -104,6 +104,15 @@ ONLY_LOOKS_SO = [
     ("min(n, delay_known) == delay_known", ()),
 ]
 
+WITHOUT_A_VALUE = [
+    ("left_invertible or n <= 20", ("min(n, -delay_known) <= n",)),
+    ("left_invertible or n <= 20", ("delay_known <= 5 - min(n, 0 - delay_known)",)),
+    ("left_invertible or n <= 20", ("max(-delay_unknown, n - delay_known) <= n",)),
+    ("left_invertible or n <= 20", ("implies(left_invertible, rank(zeros(n - delay_known, 1)) >= 0)",)),
+    ("lag <= min(n, 40)", ("implies(lag <= 40, rank(I(40 - lag)) >= 0)",)),
+    ("lag <= n and n >= m", ("n < m or is_zero(zeros(p, n - m))",)),
+]
+
 
 @pytest.mark.parametrize(("conclusion", "hypotheses", "names"), FOLLOWS[:: every()])
 def test_what_follows_is_proved_by_its_theorem(conclusion: str, hypotheses: tuple[str, ...], names: tuple[str, ...]) -> None:
@@ -113,6 +122,11 @@ def test_what_follows_is_proved_by_its_theorem(conclusion: str, hypotheses: tupl
 @pytest.mark.parametrize(("conclusion", "hypotheses"), ONLY_LOOKS_SO[:: every()])
 def test_what_only_looks_like_a_theorem_is_not_proved(conclusion: str, hypotheses: tuple[str, ...]) -> None:
     assert proved(conclusion, *hypotheses) is None
+
+
+def test_what_has_no_value_or_is_minus_infinity_proves_nothing() -> None:
+    """It makes nothing finite, and no side of a matrix a number of rows."""
+    assert [one for one in WITHOUT_A_VALUE if proved(one[0], *one[1])] == []
 
 
 @pytest.mark.searches
