@@ -65,7 +65,7 @@ def check(
 ) -> int:
     """Run the checker on certificates.
 
-    Exit 0: all verified; 3: all verified, one or more under an assumption that is told; 1: one is
+    Exit 0: all verified; 3: all verified, one or more under an assumption that is printed; 1: one is
     rejected, or not accepted by Rocq; 2: one does not parse.
     """
     from . import checking

@@ -29,7 +29,7 @@ app = typer.Typer(
     name="faultspace",
     help="Exact verdicts on the claims of a paper about systems with additive faults, and exact answers about your own system.",
     epilog="A SYSTEM is a JSON file, - for standard input, or example:NAME (see: faultspace examples). "
-    "Exit codes: 0 answered as expected, 1 not as expected, 2 bad input, 3 from check: verified under an assumption that is told, "
+    "Exit codes: 0 answered as expected, 1 not as expected, 2 bad input, 3 from check: verified under an assumption that is printed, "
     "70 an error of ours, 130 interrupted, 143 terminated.",
     add_completion=False,
     rich_markup_mode=None,
@@ -371,7 +371,7 @@ def audit(
 
     The answers are known exactly; exit 1 if a must is not met. The adapter has some of: identify, residual, window_ranks, fault_dimension,
     fault_space, reconstruct, structure, count_faults, identified_fault_space. It runs in a process of
-    its own: what hangs, crashes, forks or takes too much memory is told as that, and the next check goes on.
+    its own: what hangs, crashes, forks or takes too much memory is one failure, and the next check goes on.
 
     Example: faultspace audit mine.py --quick
     """
