@@ -66,6 +66,7 @@ FOLLOWS = [
         ("rank(G) == 0", "left_invertible"),
         ("zero_feedthrough", "zeros_exist"),
     ),
+    ("rank(hstack(A, I(n + lag))) <= 2 * n + lag and min(lag, delay_known) <= n", (), ("lag_at_most_n",)),
     ("delay_unknown <= rank(hstack(A, F))", ("delay_unknown < inf",), ("delay_by_the_range", "delay_any_state_longer")),
     ("n + m >= delay_unknown + rank(C)", ("delay_unknown < inf",), ("delay_by_outputs", "delay_any_state_longer")),
     (
@@ -102,6 +103,12 @@ ONLY_LOOKS_SO = [
     ("least(s for s in windows(0) if rank_T(s + 1) == rank_T(s)) == delay_known", ()),
     ("max(lag, delay_known) <= n", ()),
     ("min(n, delay_known) == delay_known", ()),
+    # what may be -inf is not calculated with, and a matrix that may have no size says nothing of its size
+    ("lag <= n and 0 - min(0, 0 - delay_known) < inf", ()),
+    ("lag <= n and 0 - min(0, delay_known * (lag - n - 1)) < inf", ()),
+    ("lag <= n and max(0 - delay_known, 0 - inf) < 1 + max(0 - delay_known, 0 - inf)", ("max(0 - delay_known, 0 - inf) < inf",)),
+    ("lag == n and (n >= 0 or rank(I(lag - n)) == 0)", ()),
+    ("lag == n and (n >= 0 or rank(zeros(1, lag - n)) == 0)", ()),
 ]
 
 WITHOUT_A_VALUE = [
