@@ -145,8 +145,8 @@ def residual(
     Raises
     ------
     InvalidData
-        NaN, unequal lengths, channels that do not fit the model, fewer than n samples; a given x0 with a model whose modes grow by more
-        than FORWARD over the record.
+        NaN, unequal lengths, channels that do not fit the model, N p <= n where x0 is fitted; a given x0 with a model whose modes grow by
+        more than FORWARD over the record.
 
     Examples
     --------

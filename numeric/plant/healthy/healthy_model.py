@@ -271,8 +271,8 @@ def healthy_reference(healthy: ArrayLike, u: ArrayLike | None = None, *, level: 
     Raises
     ------
     InvalidData
-        NaN, fewer than 64 samples a channel, channels that are constant or exact combinations of others (there is no noise to compare with;
-        `fault_dimension` counts the faults of such residuals).
+        NaN, fewer than 64 samples a channel or 256 in all, channels that are constant or exact combinations of others (there is no noise to
+        compare with; `fault_dimension` counts the faults of such residuals).
 
     Examples
     --------
