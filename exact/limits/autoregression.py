@@ -9,10 +9,11 @@ persistently exciting of order h + 1. For let a combination of the regressors va
 it vanishes alone, and with it the coefficients of all y; what remains is a combination of u. No rank is left that a colour of u could take
 away, unlike with PI-MOESP, whose limit may lose rank although u excites s + past samples.
 
-Limit. Where Abar(q) d is white, and Abar G = Bbar a polynomial, both of degree h or less, A = Abar and B = Bbar, so that the plant is G
-exactly, whatever colour u has: e = Abar d is then uncorrelated with all regressors. Faults that act as innovations of an observer which
-is deadbeat are such, F = K and G = I with A - K C nilpotent. For any other d the plant of the limit is not G, and tends to it as h grows
-[LW92].
+Limit. Where Abar(q) d is white, the roots of det Abar lie inside the unit circle, and Abar G = Bbar is a polynomial, both of degree h or
+less, A = Abar and B = Bbar, so that the plant is G exactly, whatever colour u has: e = Abar d is then uncorrelated with all regressors, the
+past of d among them. With a root outside it is not: 1 - 2 q^-1, too, makes d(k) = d(k-1) / 2 + e(k) white. Faults that act as innovations
+of an observer which is deadbeat are such, F = K and G = I with A - K C nilpotent. For any other d the plant of the limit is not G, and
+tends to it as h grows [LW92].
 
 Reduction. The estimator of the library then takes the plant of n states that is nearest to A^-1 B in the norm |E|^2 = mean over the
 circle of tr W E P E*, W = A* S^-1 A the inverse spectrum of the faults, S the covariance of e, P the spectrum of u [W89]. That plant is no

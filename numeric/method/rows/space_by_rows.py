@@ -104,7 +104,8 @@ def fault_space_by_rows(
     Raises
     ------
     InvalidData
-        Shapes that do not fit, n_v outside 1 .. p, records too short for rows of degree n + 1.
+        Shapes that do not fit, n_v outside 1 .. p, records too short for p - n_v rows whose degrees add up to one more than the states that
+        the outputs show.
 
     Examples
     --------
