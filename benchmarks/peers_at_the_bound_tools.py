@@ -168,9 +168,9 @@ def _realised(numerators: Any, denominators: Any, p: int, n_u: int) -> Matrices:
 
 
 def _nfoursid(y: Array, u: Array, order: int, block_rows: int) -> Matrices:
-    from faultspace.numeric.audit.peers.adapters import Nfoursid
+    from faultspace.numeric.audit.peers.adapters import by_nfoursid
 
-    return Nfoursid.identify(y, u, order, block_rows)
+    return by_nfoursid(y, u, order, block_rows)
 
 
 def _era(y: Array, u: Array, order: int, block_rows: int) -> Matrices:

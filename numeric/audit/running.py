@@ -22,8 +22,8 @@ from .expectations import ExpectedFailure, as_expected
 from .outcome import Audit
 from .records import Broken, Check, CheckResult, Status, message, named
 from .reports.causes import causes, folded, lines_of, told
-from .subjects.isolation import Isolated
-from .subjects.opening import Auditee, Command, InProcess, label, opened
+from .subjects.isolation import Auditee, Isolated
+from .subjects.opening import Command, InProcess, label, opened
 from .vectors.trouble import SEED
 
 __all__ = ["GIBIBYTES", "SECONDS", "ExpectedFailure", "audit", "parametrize_with_checks"]

@@ -54,7 +54,9 @@ def checks() -> Iterator[Check]:
     """This yields all checks of the module."""
     vectors = {one.slug: one for one in shipped("faults")}
     for slug, windows in (("one-fault", 1), ("two-faults", 1), ("two-faults", 2)):
-        yield _few_windows(vectors[slug], windows)
+        effect = "wrong ranks where few windows are asked for"
+        ranks = partial(_ranks, vectors[slug].r, vectors[slug].ranks[:windows])
+        yield _must("window-ranks-few-windows", "window_ranks", f"{slug}-{windows}", "window-ranks", effect, ranks)
     for slug in ("one-fault", "two-faults"):
         yield from _shortest(vectors[slug])
     for slug in ("two-faults", "delayed"):
@@ -70,17 +72,6 @@ def checks() -> Iterator[Check]:
 # -- little ------------------------------------------------------------------------------------------------------------------------------
 
 
-def _few_windows(vector: FaultVector, windows: int) -> Check:
-    due = vector.ranks[:windows]
-
-    def measure(function: Function) -> Iterator[Measurement]:
-        yield from ranks_off(function(floats(vector.r), windows), due)
-
-    effect = "wrong ranks where few windows are asked for"
-    name = f"{vector.slug}-{windows}"
-    return Check("window-ranks-few-windows", "window_ranks", name, "window-ranks", effect, Severity.SILENT, measure)
-
-
 def first(vector: FaultVector, samples: int) -> FaultVector:
     """Return the vector's first samples, with the bound on the signal that so short a record gives."""
     late = vector.v.nrows - vector.trusted
@@ -94,22 +85,27 @@ def shortest(vector: FaultVector) -> tuple[Matrix, tuple[int, ...]]:
     return short, tuple(rank(hankel(short, s)) for s in range(1, WINDOWS + 1))
 
 
+def _must(slug: str, function: str, vector: str, claim: str, effect: str, measure: Callable[[Function], Iterator[Measurement]]) -> Check:
+    return Check(slug, function, vector, claim, effect, Severity.SILENT, measure)
+
+
+def _ranks(r: Matrix, due: tuple[int, ...], function: Function) -> Iterator[Measurement]:
+    yield from ranks_off(function(np.ascontiguousarray(floats(r)), len(due)), due)
+
+
 def _shortest(vector: FaultVector) -> Iterator[Check]:
     def ranks(function: Function) -> Iterator[Measurement]:
-        short, due = shortest(vector)
-        yield from ranks_off(function(floats(short), len(due)), due)
+        yield from _ranks(*shortest(vector), function)
 
     effect = "no ranks, or wrong ones, of a record that has just samples enough"
-    slug = "window-ranks-shortest-record"
-    yield Check(slug, "window_ranks", vector.slug, "window-ranks", effect, Severity.SILENT, ranks)
+    yield _must("window-ranks-shortest-record", "window_ranks", vector.slug, "window-ranks", effect, ranks)
 
     def count(function: Function) -> Iterator[Measurement]:
         enough = vector.r.rows(range(samples_that_settle(vector.system.p, vector.lag)))
         yield compared_count("n_v", function(floats(enough)), vector.n_v)
 
     effect = "no number of faults, or a wrong one, from a record that has just samples enough"
-    slug = "fault-dimension-shortest-record"
-    yield Check(slug, "fault_dimension", vector.slug, "proposition-3", effect, Severity.SILENT, count)
+    yield _must("fault-dimension-shortest-record", "fault_dimension", vector.slug, "proposition-3", effect, count)
 
 
 def _few_samples(vector: FaultVector) -> Check:
@@ -118,7 +114,7 @@ def _few_samples(vector: FaultVector) -> Check:
     def measure(function: Function) -> Iterator[Measurement]:
         yield from signal_off(first(vector, FEW), function)
 
-    return Check("fault-signal-few-samples", "reconstruct", vector.slug, "trajectory-recovered", effect, Severity.SILENT, measure)
+    return _must("fault-signal-few-samples", "reconstruct", vector.slug, "trajectory-recovered", effect, measure)
 
 
 # -- nothing -----------------------------------------------------------------------------------------------------------------------------
@@ -137,15 +133,14 @@ def _no_fault(name: str) -> Iterator[Check]:
     r, system, x0 = free_response(name)
 
     def ranks(function: Function) -> Iterator[Measurement]:
-        due = tuple(rank(hankel(r, s)) for s in range(1, WINDOWS + 1))
-        yield from ranks_off(function(np.ascontiguousarray(floats(r)), WINDOWS), due)
+        yield from _ranks(r, tuple(rank(hankel(r, s)) for s in range(1, WINDOWS + 1)), function)
 
     effect = "a free response is taken for a fault"
-    yield Check("window-ranks-no-fault", "window_ranks", name, "window-ranks", effect, Severity.SILENT, ranks)
+    yield _must("window-ranks-no-fault", "window_ranks", name, "window-ranks", effect, ranks)
     parts = tuple(floats(M) for M in (system.A, system.F, system.C, system.G))
     arguments = np.ascontiguousarray(floats(r)), *parts, floats(x0).ravel()
     zero = or_refused(partial(_silent, arguments))
-    yield Check("fault-signal-no-fault", "reconstruct", name, "trajectory-recovered", effect, Severity.SILENT, zero)
+    yield _must("fault-signal-no-fault", "reconstruct", name, "trajectory-recovered", effect, zero)
     if system.p > 1:
         space = arguments[0], parts[0], parts[2], 1, WINDOWS
         effect = "fault matrices of a record without a fault"
@@ -174,7 +169,7 @@ def _wrong_number(vector: FaultVector, told: int) -> Check:
 
     effect = "fault matrices that do not explain the data: as many columns as were told"
     name = f"{vector.slug}-{told}-told"
-    return Check("fault-space-wrong-number", "fault_space", name, "problem-11", effect, Severity.SILENT, or_refused(compare))
+    return _must("fault-space-wrong-number", "fault_space", name, "problem-11", effect, or_refused(compare))
 
 
 def _as_many_as_outputs(vector: FaultVector) -> Check:
@@ -189,8 +184,8 @@ def _as_many_as_outputs(vector: FaultVector) -> Check:
         yield from spaces_off(got, everything, ROUNDED)
 
     effect = "true columns left out where the record excludes none"
-    name, slug = f"{vector.slug}-two-outputs", "fault-space-as-many-as-outputs"
-    return Check(slug, "fault_space", name, "problem-11", effect, Severity.SILENT, or_refused(compare))
+    name = f"{vector.slug}-two-outputs"
+    return _must("fault-space-as-many-as-outputs", "fault_space", name, "problem-11", effect, or_refused(compare))
 
 
 def _impossible(vector: FaultVector) -> Iterator[Check]:

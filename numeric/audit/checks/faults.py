@@ -4,6 +4,7 @@ checks           what is asked of every function, as given and in the views of S
                  number of faults under white noise whose Hankel matrices are, certified, far smaller than the least singular value of the
                  exact ones: it is there to be seen, and no threshold of rounding shows it
 spaces_off       dimension and two-sided distance of a fault space
+PLAIN            what is asked of every record of faults, of whatever kind
 compared_count   a number of faults against the one that is due
 as_number        n_v as a number
 residual_off, window_ranks_off, count_off, signal_off    the measurements of each function on one vector
@@ -28,7 +29,7 @@ from ....base.sheets import counted
 from ...method.space.distances import compare_subspaces
 from ..records import Broken, Check, Demand, Function, Measurement, Severity, Sides
 from ..vectors.exact_comparison import lifted
-from ..vectors.fault_vectors import LONG_WINDOW, FaultVector, channel_units, with_input
+from ..vectors.fault_vectors import LONG_WINDOW, FaultVector, UnexcitingVector, channel_units, with_input
 from ..vectors.rationals import floats, fractions, matrix, scaled
 from ..vectors.recipe_vectors import NoisyVector
 from ..vectors.shipped_vectors import shipped
@@ -56,25 +57,23 @@ def checks() -> Iterator[Check]:
     for noisy in shipped("noisy"):
         yield _noisy(noisy)
     for vector in shipped("faults"):
-        effect = "the residual still holds the response to the input: input and fault cannot be told apart"
-        yield from _in_views("residual-free-of-input", "residual", vector, "proposition-1", effect, residual_off)
-        effect = "wrong ranks of windows: wrong number of faults, wrong lag"
-        yield from _in_views("window-ranks", "window_ranks", vector, "window-ranks", effect, window_ranks_off)
-        measure = partial(_many_windows, vector)
+        yield from _in_views("residual-free-of-input", vector)
+        yield from _in_views("window-ranks", vector)
         if vector.slug in MANY_OF:
-            yield Check("window-ranks-many-windows", "window_ranks", vector.slug, "window-ranks", effect, Severity.SILENT, measure)
-        yield from _in_views("fault-dimension", "fault_dimension", vector, "proposition-3", "a wrong number of faults", count_off)
+            _, claim, effect, _ = PLAIN["window-ranks"]
+            measure = partial(_many_windows, vector)
+            yield Check("window-ranks-many-windows", "window_ranks", vector.slug, claim, effect, Severity.SILENT, measure)
+        yield from _in_views("fault-dimension", vector)
         yield _as_many_as_outputs(vector)
-        effect = "fault matrices that do not explain the data, or true ones left out"
-        yield from _in_views("fault-space", "fault_space", vector, "problem-11", effect, space_off)
+        yield from _in_views("fault-space", vector)
         yield _window("fault-space-long-window", vector, LONG_WINDOW)
         yield _window("fault-space-shortest-window", vector, vector.lag + 1)
-        effect = "a wrong fault signal: wrong size or time of a fault"
-        yield from _in_views("fault-signal", "reconstruct", vector, "trajectory-recovered", effect, signal_off)
+        yield from _in_views("fault-signal", vector)
 
 
-def _in_views(slug: str, function: str, vector: FaultVector, claim: str, effect: str, compare: Measure) -> Iterator[Check]:
-    """Yield the check of the record as given and in every view that changes the question."""
+def _in_views(slug: str, vector: FaultVector) -> Iterator[Check]:
+    """Yield the check of PLAIN of the record as given and in every view that changes the question."""
+    function, claim, effect, compare = PLAIN[slug]
 
     def measure(views: tuple[str, ...], called: Function) -> Iterator[Measurement]:
         for view in views:
@@ -116,7 +115,7 @@ def _no_columns(rows: int) -> Matrix:
     return matrix([[] for _ in range(rows)], 0)
 
 
-def window_ranks_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
+def window_ranks_off(vector: FaultVector | UnexcitingVector, function: Function) -> Iterator[Measurement]:
     """Ask for the ranks R_s for s = 1, 2, ... and compare them."""
     yield from ranks_off(function(floats(vector.r), len(vector.ranks)), vector.ranks)
 
@@ -182,9 +181,8 @@ def space_off(vector: FaultVector, function: Function, block_rows: int | None = 
 
 
 def _window(slug: str, vector: FaultVector, block_rows: int) -> Check:
-    effect = "fault matrices that change with the length of the window"
     measure = partial(space_off, vector, block_rows=block_rows)
-    return Check(slug, "fault_space", vector.slug, "sharp-windows", effect, Severity.SILENT, measure)
+    return Check(slug, "fault_space", vector.slug, "sharp-windows", WINDOW, Severity.SILENT, measure)
 
 
 def spaces_off(got: Any, truth: Matrix, bound: float) -> Iterator[Measurement]:
@@ -209,6 +207,22 @@ def signal_off(vector: FaultVector, function: Function) -> Iterator[Measurement]
     off = floats(answer - vector.v)[: vector.trusted]
     sides = Sides("signal", fractions(answer)[: vector.trusted], fractions(vector.v)[: vector.trusted], bound)
     yield Measurement("v", float(np.linalg.norm(off)), bound, sides)
+
+
+WINDOW = "fault matrices that change with the length of the window"
+# What is asked of every record: slug -> function, claim, effect, what compares.
+PLAIN: dict[str, tuple[str, str, str, Measure]] = {
+    "residual-free-of-input": (
+        "residual",
+        "proposition-1",
+        "the residual still holds the response to the input: input and fault cannot be told apart",
+        residual_off,
+    ),
+    "window-ranks": ("window_ranks", "window-ranks", "wrong ranks of windows: wrong number of faults, wrong lag", window_ranks_off),
+    "fault-dimension": ("fault_dimension", "proposition-3", "a wrong number of faults", count_off),
+    "fault-space": ("fault_space", "problem-11", "fault matrices that do not explain the data, or true ones left out", space_off),
+    "fault-signal": ("reconstruct", "trajectory-recovered", "a wrong fault signal: wrong size or time of a fault", signal_off),
+}
 
 
 def _noisy(vector: NoisyVector) -> Check:

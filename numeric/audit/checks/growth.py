@@ -1,8 +1,8 @@
 """Check how memory and time grow with the length of the record: in proportion, or with its square; and that the answers stay right.
 
     checks              for every function that reads a record
-    footprint, Held     peak memory beyond what was there, of this process and all that it started
-    timed, Spent        their CPU seconds, taken without a look at the memory, which itself takes time
+    footprint           peak memory beyond what was there, of this process and all that it started
+    timed               their CPU seconds, taken without a look at the memory, which itself takes time
     exponent            log of the ratio of two costs over that of the lengths
 
 The bound on the exponent is midway between linear and quadratic. What stays under a floor costs nobody anything and counts as no growth;
@@ -20,8 +20,7 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from contextlib import suppress
 from math import inf, log
 from typing import Any
 
@@ -62,24 +61,9 @@ WINDOWS = 4
 NEAREST = 0.5  # from a whole number: what is nearer is no other
 
 
-@dataclass
-class Held:
-    """The memory is in bytes, and is filled in when the work is done."""
-
-    memory: float = 0.0
-
-
-@dataclass
-class Spent:
-    """The time is in seconds, and is filled in when the work is done."""
-
-    seconds: float = 0.0
-
-
-@contextmanager
-def footprint() -> Iterator[Held]:
-    """Measure the memory that the body costs this process and its children, looked at every few milliseconds."""
-    spent, done, before = Held(), threading.Event(), _held()
+def footprint(work: Callable[[], object]) -> float:
+    """Return the bytes of memory that the work costs this process and its children, looked at every few milliseconds."""
+    done, before = threading.Event(), _held()
     peak = before
 
     def watch() -> None:
@@ -90,23 +74,20 @@ def footprint() -> Iterator[Held]:
     watcher = threading.Thread(target=watch, daemon=True)
     watcher.start()
     try:
-        yield spent
+        work()
     finally:
         last = _held()
         done.set()
         watcher.join()
-        spent.memory = max(peak, last) - before
+    return max(peak, last) - before
 
 
-@contextmanager
-def timed() -> Iterator[Spent]:
-    """Measure the CPU seconds that the body costs this process and its children."""
-    spent, whole = Spent(), psutil.Process()
+def timed(work: Callable[[], object]) -> float:
+    """Return the CPU seconds that the work costs this process and its children."""
+    whole = psutil.Process()
     begun = _seconds(whole)
-    try:
-        yield spent
-    finally:
-        spent.seconds = max(_seconds(whole) - begun, 0.0)
+    work()
+    return max(_seconds(whole) - begun, 0.0)
 
 
 def _held() -> float:
@@ -268,15 +249,11 @@ def _fault(kind: str) -> FaultVector:
 
 
 def _memory(arguments: tuple[Any, ...], function: Function) -> Iterator[Measurement]:
-    with footprint() as spent:
-        function(*arguments)
-    yield Measurement("bytes", spent.memory, inf)
+    yield Measurement("bytes", footprint(lambda: function(*arguments)), inf)
 
 
 def _time(arguments: tuple[Any, ...], function: Function) -> Iterator[Measurement]:
-    with timed() as spent:
-        function(*arguments)
-    yield Measurement("seconds", spent.seconds, inf)
+    yield Measurement("seconds", timed(lambda: function(*arguments)), inf)
 
 
 def _cost(measure: Callable[..., Iterator[Measurement]], name: str, length: int, function: Function) -> float:

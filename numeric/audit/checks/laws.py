@@ -11,7 +11,7 @@ answer is. The space is asked with n_v given, and under noise alone: the error o
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache, partial
 from random import Random
 from typing import Any
@@ -28,11 +28,12 @@ from ....base.errors import InvalidData
 from ...method.model.models import StateSpaceModel
 from ...method.space.distances import compare_subspaces
 from ..making.planting import digits
-from ..records import Broken, Check, Demand, Function, Measurement, Refused, Severity, Sides
+from ..records import Broken, Check, Function, Measurement, Refused, Severity, Sides
 from ..vectors.rationals import floats, matrix, signs
 from ..vectors.recipe_vectors import NoisyVector
 from ..vectors.shipped_vectors import shipped
 from .faults import compared_count
+from .refusals import refuses
 
 LEVEL = 0.35
 """The sine of the angle by which a space may be off under noise and the error of a model from so many samples: the largest of our own on
@@ -180,19 +181,17 @@ def _responses(A: Array, C: Array, columns: Array, scale: Array) -> Array:
 def _refusals(vector: NoisyVector) -> Iterator[Check]:
     """Yield what must be refused: a missing sample, unequal lengths, fewer samples than unknowns."""
 
-    def asked(slug: str, effect: str, change: Any) -> Iterator[Check]:
-        for function, rest in (("count_faults", ()), ("identified_fault_space", (vector.system.m,))):
-
-            def measure(called: Function, change: Any = change, rest: tuple[Any, ...] = rest) -> Iterator[Measurement]:
-                called(*change(*record(vector, LOUD)), vector.system.n, *rest)
-                return iter(())
-
-            yield Check(slug, function, vector.slug, None, effect, Severity.SILENT, measure, Demand.MUST_REFUSE)
-
     def missing(y: Array, u: Array) -> tuple[Array, Array]:
         y[len(y) // 2, 0] = np.nan
         return y, u
 
-    yield from asked("refuses-nan-output", "a missing sample goes into the estimate unnoticed", missing)
-    yield from asked("refuses-unequal-lengths", "inputs paired with the wrong outputs", lambda y, u: (y, u[:-5]))
-    yield from asked("refuses-short-data", "an answer from fewer equations than unknowns", lambda y, u: (y[:6], u[:6]))
+    def changed(change: Callable[[Array, Array], tuple[Array, Array]], rest: tuple[int, ...]) -> tuple[Any, ...]:
+        return *change(*record(vector, LOUD)), vector.system.n, *rest
+
+    for slug, effect, change in (
+        ("refuses-nan-output", "a missing sample goes into the estimate unnoticed", missing),
+        ("refuses-unequal-lengths", "inputs paired with the wrong outputs", lambda y, u: (y, u[:-5])),
+        ("refuses-short-data", "an answer from fewer equations than unknowns", lambda y, u: (y[:6], u[:6])),
+    ):
+        yield refuses(slug, "count_faults", vector.slug, effect, partial(changed, change, ()))
+        yield refuses(slug, "identified_fault_space", vector.slug, effect, partial(changed, change, (vector.system.m,)))

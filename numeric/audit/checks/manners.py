@@ -1,7 +1,7 @@
 """Equal questions get equal answers, and the caller's arrays come back as they were.
 
 checks      deterministic, inputs-untouched: for every function, on one vector each
-questions   those vectors, as arguments;   copies, equal    of arguments, of answers
+questions   those vectors, as arguments;   copies, answered, equal    of arguments, an answer or none, of answers
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ..records import Check, Function, Measurement, Severity, inside
+from ..records import Check, Function, Measurement, Refused, Severity, inside
 from ..vectors.fault_vectors import with_input
 from ..vectors.shipped_vectors import floats, shipped
 
@@ -44,6 +44,14 @@ def questions() -> Iterator[tuple[str, str, tuple[Any, ...]]]:
 
 def copies(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
     return tuple(one.copy() if isinstance(one, np.ndarray) else one for one in arguments)
+
+
+def answered(function: Function, arguments: tuple[Any, ...]) -> Any:
+    """Return the answer, None for a refusal: another question need not have one."""
+    try:
+        return function(*arguments)
+    except Refused:
+        return None
 
 
 def _deterministic(arguments: tuple[Any, ...], function: Function) -> Iterator[Measurement]:

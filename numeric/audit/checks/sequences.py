@@ -26,14 +26,14 @@ from faultspace.exact.system.systems import ResidualSystem
 
 from ..making.fault_records import residual_bound, signal_bound
 from ..making.trouble_vectors import structure_vector
-from ..records import Check, Function, Measurement, Refused, Severity, inside
+from ..records import Check, Function, Measurement, Severity, inside
 from ..vectors.fault_vectors import FaultVector
 from ..vectors.rationals import floats, fractions, matrix
 from ..vectors.shipped_vectors import StructureVector, shipped
 from ..vectors.trouble import default_troubles
 from . import growth, structure
 from .faults import ranks_off, residual_off, signal_off
-from .manners import copies, equal, questions
+from .manners import answered, copies, equal, questions
 
 LARGE = 2**30
 ASKED = 20  # records
@@ -94,7 +94,7 @@ def _structures(function: Function) -> Iterator[Measurement]:
     for one in (first, *others, first):
         yield from _all_of(one, function)
     A, F, C, G = (floats(M) for M in (first.system.A, first.system.F, first.system.C, first.system.G))
-    _asked(function, (LARGE * A, LARGE * F, C, G))
+    answered(function, (LARGE * A, LARGE * F, C, G))
     yield from _all_of(first, function)
 
 
@@ -150,21 +150,13 @@ def _signals(function: Function) -> Iterator[Measurement]:
 # -- what is kept ------------------------------------------------------------------------------------------------------------------------
 
 
-def _asked(function: Function, arguments: tuple[Any, ...]) -> Any:
-    """Return the answer, None for a refusal: the other question need not have one."""
-    try:
-        return function(*arguments)
-    except Refused:
-        return None
-
-
 def _stay(arguments: tuple[Any, ...], function: Function) -> Iterator[Measurement]:
     """The others are of the same shapes: half of the record or of the model, and the same backwards."""
     given = copies(arguments)
     held = function(*given)
     then = [np.array(one, copy=True) for one in _arrays(held)]
     for other in (given[0] / 2, np.ascontiguousarray(given[0][::-1])):
-        _asked(function, (other, *copies(arguments)[1:]))
+        answered(function, (other, *copies(arguments)[1:]))
     now = _arrays(held)
     changed = sum(not equal(one, other) for one, other in zip(then, now, strict=True))
     yield Measurement("parts of an answer changed by later questions", float(changed), 0.0)
@@ -193,7 +185,7 @@ def _forgets(asked: tuple[Any, ...], function: Function) -> Iterator[Measurement
     for number in range(ASKED):
         first = arguments[0] * (1 + number)
         ghosts.append(weakref.ref(first))
-        _asked(function, (first, *copies(arguments)[1:]))
+        answered(function, (first, *copies(arguments)[1:]))
         del first
     gc.collect()
     yield Measurement("records held", float(sum(ghost() is not None for ghost in ghosts)), float(HELD))
@@ -210,7 +202,7 @@ def _kept(function: Function, record: Any, *others: Any) -> float:
     def asked(numbers: range) -> int:
         before = tracemalloc.get_traced_memory()[0]
         for number in numbers:
-            _asked(function, (record * (1 + number), *copies(others)))
+            answered(function, (record * (1 + number), *copies(others)))
         gc.collect()
         return tracemalloc.get_traced_memory()[0] - before
 

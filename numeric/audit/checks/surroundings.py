@@ -35,8 +35,8 @@ import numpy as np
 import psutil
 import scipy.linalg
 
-from ..records import Check, Function, Measurement, Refused, Severity, inside
-from .manners import copies, equal, questions
+from ..records import Check, Function, Measurement, Severity, inside
+from .manners import answered, copies, equal, questions
 
 try:
     import resource
@@ -238,17 +238,9 @@ def _other(arguments: Arguments) -> Arguments:
     return (np.ascontiguousarray(first[::-1]), *rest)
 
 
-def _asked(function: Function, arguments: Arguments) -> Any:
-    """Return the answer, None for a refusal: another question need not have one."""
-    try:
-        return function(*arguments)
-    except Refused:
-        return None
-
-
 def _order_of_calls(arguments: Arguments, function: Function) -> Iterator[Measurement]:
     first = function(*copies(arguments))
-    _asked(function, _other(arguments))
+    answered(function, _other(arguments))
     again = function(*copies(arguments))
     yield Measurement("answers differ after another question", float(not equal(first, again)), 0.0)
 
@@ -258,5 +250,5 @@ def _same_array(arguments: Arguments, function: Function) -> Iterator[Measuremen
     given, other = copies(arguments), _other(arguments)
     function(*given)
     given[0][...] = other[0]
-    got, due = _asked(function, given), _asked(function, copies(other))
+    got, due = answered(function, given), answered(function, copies(other))
     yield Measurement("answers differ for an array used again", float(not equal(got, due)), 0.0)

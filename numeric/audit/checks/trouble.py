@@ -27,7 +27,7 @@ from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import IdentificationVector
 from ..vectors.trouble import Trouble, default_troubles
 from . import structure
-from .faults import count_off, residual_off, signal_off, space_off, window_ranks_off
+from .faults import PLAIN, WINDOW, count_off, space_off
 from .identification import RECOVERY, as_it_is
 
 Compare = Callable[[Function], Iterator[Measurement]]
@@ -63,23 +63,14 @@ def questions(trouble: Trouble) -> Iterator[tuple[str, str, str, str, Compare]]:
         effect = "faults that no output shows are missed, or seen where there are none"
         yield "finite-zeros", "structure", "window-ranks", effect, partial(structure.zeros_off, trouble.structure)
     if vector:
-        for slug, function, claim, effect, compare in _of_faults(vector):
+        for slug, (function, claim, effect, compare) in PLAIN.items():
             if function in trouble.asks and not (function == "reconstruct" and vector.bounds["signal"] is None):
                 yield slug, function, claim, effect, partial(compare, vector)
+                if function == "fault_space":
+                    shortest = partial(space_off, vector, block_rows=vector.lag + 1)
+                    yield "fault-space-shortest-window", function, "sharp-windows", WINDOW, shortest
     if model and any(model.asked(name) for name in ("markov", "characteristic_polynomial", "poles")):
         yield "exact-recovery", "identify", "proposition-1", RECOVERY, partial(_model_off, model)
-
-
-def _of_faults(vector: FaultVector) -> Iterator[tuple[str, str, str, str, Callable[[FaultVector, Function], Iterator[Measurement]]]]:
-    effect = "the residual still holds the response to the input: input and fault cannot be told apart"
-    yield "residual-free-of-input", "residual", "proposition-1", effect, residual_off
-    yield "window-ranks", "window_ranks", "window-ranks", "wrong ranks of windows: wrong number of faults, wrong lag", window_ranks_off
-    yield "fault-dimension", "fault_dimension", "proposition-3", "a wrong number of faults", count_off
-    effect = "fault matrices that do not explain the data, or true ones left out"
-    yield "fault-space", "fault_space", "problem-11", effect, space_off
-    effect, shortest = "fault matrices that change with the length of the window", partial(space_off, block_rows=vector.lag + 1)
-    yield "fault-space-shortest-window", "fault_space", "sharp-windows", effect, shortest
-    yield "fault-signal", "reconstruct", "trajectory-recovered", "a wrong fault signal: wrong size or time of a fault", signal_off
 
 
 def _free_count(slug: str, effect: str, vector: FaultVector) -> Check:

@@ -35,7 +35,6 @@ from .planting import (
     late,
     pair,
     resized,
-    scaled_direct,
     series,
     spiked,
     tall,
@@ -95,18 +94,25 @@ def _quarter(rng: Random) -> Fraction:
     return Fraction(rng.choice((-3, -2, -1, 1, 2, 3)), 4)
 
 
+def _quarter_factor(rng: Random) -> Polynomial:
+    return factor(_quarter(rng))
+
+
 def _complex(rng: Random) -> Polynomial:
     """A pair and a real zero beside it: one number of three missing is no pair missing."""
     return times(pair(Fraction(rng.choice((-1, 1)), 2), Fraction(rng.choice((1, 2)), 4)), factor(_quarter(rng)))
 
 
-def _eighth(rng: Random) -> Polynomial:
-    return factor(Fraction(1, 8))
+def _always(polynomial: Polynomial) -> Callable[[Random], Polynomial]:
+    return lambda rng: polynomial
 
 
 def _twice(rng: Random) -> Polynomial:
     a = _quarter(rng)
     return times(factor(a), factor(a))
+
+
+AT_0, AT_1, EIGHTH = (_always(factor(one)) for one in (0, 1, Fraction(1, 8)))
 
 
 def _without_zeros(rng: Random) -> ResidualSystem:
@@ -128,18 +134,6 @@ def _large(rng: Random) -> Polynomial:
     return times(factor(rng.choice((-1, 1)) * 2 ** rng.randint(8, 11)), factor(_quarter(rng)))
 
 
-def _at_0(rng: Random) -> Polynomial:
-    return factor(0)
-
-
-def _at_1(rng: Random) -> Polynomial:
-    return factor(1)
-
-
-def _no_zero(rng: Random) -> Polynomial:
-    return times()
-
-
 def _outside(rng: Random) -> Polynomial:
     return factor(rng.choice((-1, 1)) * Fraction(rng.choice((3, 4, 5)), 2))
 
@@ -147,7 +141,7 @@ def _outside(rng: Random) -> Polynomial:
 def _uncontrollable(rng: Random) -> ResidualSystem:
     """Two states that move by themselves enter where the fault does, so that a fault can hide them: input decoupling zeros."""
     own = channel([Fraction(1)], times(factor(Fraction(1, 2)), factor(Fraction(-3, 4))))
-    bank = channel(factor(_quarter(rng)), _stable(rng, 1))
+    bank = channel(_quarter_factor(rng), _stable(rng, 1))
     behind = series(bank, tall_without_zeros(rng, 2, 1, 3))
     A = columns_beside(stacked(own.A, behind.F @ own.C), stacked(Matrix.zero(own.field, own.n, behind.n), behind.A))
     F = stacked(Matrix.zero(own.field, own.n, 1), behind.F)
@@ -156,7 +150,7 @@ def _uncontrollable(rng: Random) -> ResidualSystem:
 
 def _unobservable(rng: Random) -> ResidualSystem:
     """A state that no output shows: an output decoupling zero."""
-    seen = series(channel(factor(_quarter(rng)), _stable(rng, 1)), tall_without_zeros(rng, 2, 1, 3))
+    seen = series(channel(_quarter_factor(rng), _stable(rng, 1)), tall_without_zeros(rng, 2, 1, 3))
     unseen = ResidualSystem(matrix([[_quarter(rng)]], 1), matrix([[1]], 1), Matrix.zero(seen.field, 0, 1), Matrix.zero(seen.field, 0, 1))
     both = beside(seen, unseen)
     return hidden(rng, ResidualSystem(both.A, stacked(seen.F, unseen.F), both.C, seen.G))
@@ -227,7 +221,8 @@ def _direct(size: Fraction) -> Callable[[Random], ResidualSystem]:
     """The first column of G is of this size."""
 
     def generate(rng: Random) -> ResidualSystem:
-        return scaled_direct(tall(rng, 3, 2, 3), size, [0])
+        system = tall(rng, 3, 2, 3)
+        return system.with_faults(system.F, matrix([[x * size, *others] for x, *others in fractions(system.G)], system.m))
 
     return generate
 
@@ -300,10 +295,6 @@ def _orders_one_and_three(rng: Random) -> ResidualSystem:
     return hidden(rng, ResidualSystem(bank.A, bank.F @ mixed, mixed @ bank.C, mixed @ bank.G))
 
 
-def _quarter_factor(rng: Random) -> Polynomial:
-    return factor(_quarter(rng))
-
-
 def _resized(
     drawn: Callable[[Random], ResidualSystem], faults: Sequence[int], outputs: Sequence[int]
 ) -> Callable[[Random], ResidualSystem]:
@@ -334,8 +325,8 @@ KINDS = (
     Kind("zeros-complex", "a complex pair and a real zero: none of the pair may be missing", _with_zeros(_complex)),
     Kind("zeros-repeated", "a zero of two channels' product: one chain of length two", _with_zeros(_twice)),
     Kind("zeros-repeated-apart", "the same zero in two channels: two chains of length one", _same_in_two_channels),
-    Kind("zeros-at-0", "zeros at 0, where z itself is no shift", _with_zeros(_at_0)),
-    Kind("zeros-at-1", "zeros at 1, where constants vanish", _with_zeros(_at_1)),
+    Kind("zeros-at-0", "zeros at 0, where z itself is no shift", _with_zeros(AT_0)),
+    Kind("zeros-at-1", "zeros at 1, where constants vanish", _with_zeros(AT_1)),
     Kind("zeros-on-the-circle", "a complex pair of modulus one", _with_zeros(_on_the_circle)),
     Kind("zeros-outside", "a zero outside the unit circle", _with_zeros(_outside)),
     Kind("zeros-large", "a zero of hundreds or thousands beside one below one", _with_zeros(_large)),
@@ -343,10 +334,10 @@ KINDS = (
     Kind("zeros-unobservable", "zeros at unobservable modes", _unobservable, (STRUCTURE, RANKS, COUNT, SPACE)),
     Kind("zeros-at-infinity", "a fault that shows a sample late beside a finite zero", _with_zeros(_complex, excess=1)),
     Kind("square-complex", "complex zeros, as many outputs as faults", _square_of(_complex, _outside), (STRUCTURE,)),
-    Kind("square-repeated", "repeated zeros, as many outputs as faults", _square_of(_twice, _eighth), (STRUCTURE,)),
-    Kind("rank-drops-at-0", "the rank of the pencil drops at 0 and nowhere else", _square_of(_at_0, _at_0), (STRUCTURE,)),
-    Kind("rank-drops-at-1", "the rank of the pencil drops at 1 and nowhere else", _square_of(_at_1, _no_zero), (STRUCTURE,)),
-    Kind("rank-drops-at-0-and-1", "the rank of the pencil drops at 0 and at 1", _with_zeros(_at_0, _at_1, p=4)),
+    Kind("square-repeated", "repeated zeros, as many outputs as faults", _square_of(_twice, EIGHTH), (STRUCTURE,)),
+    Kind("rank-drops-at-0", "the rank of the pencil drops at 0 and nowhere else", _square_of(AT_0, AT_0), (STRUCTURE,)),
+    Kind("rank-drops-at-1", "the rank of the pencil drops at 1 and nowhere else", _square_of(AT_1, _always(times())), (STRUCTURE,)),
+    Kind("rank-drops-at-0-and-1", "the rank of the pencil drops at 0 and at 1", _with_zeros(AT_0, AT_1, p=4)),
     Kind("rank-deficient", "one fault twice, with a zero at 0: a rank seen at 0 is not the normal one", _deficient, (STRUCTURE,)),
     Kind("poles-unstable", "a pole outside the unit circle", _with_poles(factor(Fraction(17, 16)))),
     Kind("poles-unstable-pair", "a complex pair outside the unit circle", _with_poles(pair(Fraction(1, 2), Fraction(7, 8)))),
@@ -380,14 +371,14 @@ KINDS = (
     Kind(
         "small-units",
         "small F and C, and products of them smaller still",
-        _resized(_square_of(_complex, _eighth), (-20, -20), (-20, -20)),
+        _resized(_square_of(_complex, EIGHTH), (-20, -20), (-20, -20)),
         (STRUCTURE,),
     ),
     Kind("silent-mode", "no fault, and a state that no output shows", _silent_mode, (STRUCTURE,)),
     Kind(
         "small-columns",
         "as many outputs as faults, of whose columns all are small",
-        _resized(_square_of(_quarter_factor, _eighth), (-17, -17), (0, 0)),
+        _resized(_square_of(_quarter_factor, EIGHTH), (-17, -17), (0, 0)),
         (STRUCTURE, RANKS, RESIDUAL, SIGNAL),
     ),
     Kind("order-1", "one state, one input, one output", _plain(1, 1, 1), (STRUCTURE, RANKS, MODEL, RESIDUAL)),
@@ -397,7 +388,7 @@ KINDS = (
     Kind(
         "faults-in-unlike-units",
         "a fault of a ten-millionth of another, which is its unit alone",
-        _resized(_with_zeros(_quarter_factor, _eighth, p=4), (0, -24), (0, 0, 0, 0)),
+        _resized(_with_zeros(_quarter_factor, EIGHTH, p=4), (0, -24), (0, 0, 0, 0)),
         (STRUCTURE, SIGNAL),
     ),
     Kind(

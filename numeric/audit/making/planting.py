@@ -21,7 +21,7 @@ of the channels and no others; it is observable where the tall one is. All entri
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from random import Random
 
@@ -152,13 +152,6 @@ def _unimodular(rng: Random, size: int) -> tuple[Matrix, Matrix]:
         undone = matrix([[int(a == b) - sign * int((a, b) == (i, j)) for b in range(size)] for a in range(size)], size)
         there, back = shear @ there, back @ undone
     return there, back
-
-
-def scaled_direct(system: ResidualSystem, factor_: Fraction, columns: Iterable[int]) -> ResidualSystem:
-    """Return the system with these columns of G multiplied by the factor."""
-    chosen = set(columns)
-    G = [[x * factor_ if j in chosen else x for j, x in enumerate(row)] for row in fractions(system.G)]
-    return system.with_faults(system.F, matrix(G, system.m))
 
 
 def resized(system: ResidualSystem, faults: Sequence[Fraction], outputs: Sequence[Fraction]) -> ResidualSystem:

@@ -1,6 +1,6 @@
 """How published packages in Python are called, a class each: its functions, and what the package says that it does not do.
 
-Sippy, SippyWithFeedthrough    sippy_unipi: system_identification(y, u, "MOESP"), by default and with SS_D_required=True
+Sippy, SippyWithFeedthrough    sippy_unipi: system_identification(y, u, "MOESP"), by default, where D is zero, and with SS_D_required=True
 Nfoursid                       nfoursid: NFourSID on a data frame
 Ctrlsys, CtrlsysCombined       SLICOT in C: ib01ad and ib01bd by MOESP, SLICOT's usual choice, and with METH = "C"; ab08nd
 Control, ControlWithoutSlycot  python-control: markov, eigensys_realization; StateSpace.zeros, with slycot and as without
@@ -12,7 +12,8 @@ question needs, so that these import what they use, and need nothing of ours.
 
 from __future__ import annotations
 
-from functools import cached_property
+from collections.abc import Callable
+from functools import cached_property, partial
 from importlib import import_module
 from typing import Any
 
@@ -22,9 +23,10 @@ from . import _promises as promises
 
 
 class Package:
-    """An adapter is there where its package can be imported."""
+    """An adapter is there where its package can be imported; `apart` gives its NOT_PROMISED."""
 
-    package = ""
+    package: str
+    apart: Callable[[], dict[str, str]] = staticmethod(dict)
 
     def __init__(self) -> None:
         import_module(self.package)
@@ -33,9 +35,10 @@ class Package:
     def NOT_PROMISED(self) -> dict[str, str]:
         return self.apart()
 
-    def apart(self) -> dict[str, str]:
-        """Return pattern -> reason for what the package says that it does not do."""
-        return {}
+
+def _of(package: str, apart: Callable[[], dict[str, str]] = dict, **functions: Callable[..., Any]) -> type[Package]:
+    parts = {name: staticmethod(one) for name, one in {"apart": apart, **functions}.items()}
+    return type(package, (Package,), {"package": package, **parts})
 
 
 # -- sippy_unipi: models come without an initial state (x0 is zeros in SS_model), so that there is nothing else to ask ----------
@@ -59,34 +62,23 @@ def _sippy_with_feedthrough(y: Array, u: Array, order: int, block_rows: int) -> 
     return _sippy(y, u, order, block_rows, SS_D_required=True)
 
 
-class SippyWithFeedthrough(Package):
-    """What a user sets who knows of a D."""
-
-    package = "sippy_unipi"
-    identify = staticmethod(_sippy_with_feedthrough)
-
-    def apart(self) -> dict[str, str]:
-        return (
-            promises.more_block_rows_than_states("The horizon must be larger than the model order")
-            | promises.coloured()
-            | {"form-float32/*": "no document of the package promises the digits of double precision for arrays of single precision"}
-        )
+def _apart_from_sippy(more: Callable[[], dict[str, str]]) -> dict[str, str]:
+    return (
+        promises.more_block_rows_than_states("The horizon must be larger than the model order")
+        | promises.coloured()
+        | {"form-float32/*": "no document of the package promises the digits of double precision for arrays of single precision"}
+        | more()
+    )
 
 
-class Sippy(SippyWithFeedthrough):
-    """The package's default SS_D_required=False: D is zero, and a plant with a D is not what was promised."""
-
-    identify = staticmethod(_sippy)
-
-    def apart(self) -> dict[str, str]:
-        without = promises.with_feedthrough("the default SS_D_required=False estimates no D")
-        return super().apart() | without
-
+_NO_D = partial(promises.with_feedthrough, "the default SS_D_required=False estimates no D")
+Sippy = _of("sippy_unipi", partial(_apart_from_sippy, _NO_D), identify=_sippy)
+SippyWithFeedthrough = _of("sippy_unipi", partial(_apart_from_sippy, dict), identify=_sippy_with_feedthrough)
 
 # -- nfoursid -----------------------------------------------------------------------------------------------------------------------------
 
 
-def _nfoursid(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
+def by_nfoursid(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
     import pandas
     from nfoursid.nfoursid import NFourSID
 
@@ -100,15 +92,7 @@ def _nfoursid(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any
     return found.a, found.b, found.c, found.d
 
 
-class Nfoursid(Package):
-    """subspace_identification, then system_identification of the order asked for."""
-
-    package = "nfoursid"
-    identify = staticmethod(_nfoursid)
-
-    def apart(self) -> dict[str, str]:
-        return promises.coloured()
-
+Nfoursid = _of("nfoursid", promises.coloured, identify=by_nfoursid)
 
 # -- SLICOT, in C and in Fortran ----------------------------------------------------------------------------------------------------------
 
@@ -159,21 +143,12 @@ def _ctrlsys_zeros(A: Array, F: Array, C: Array, G: Array) -> dict[str, Any]:
     return _zeros_of_slicot(nu, rank, infz[:dinfz], Af, Bf, m)
 
 
-class CtrlsysCombined(Package):
-    """A and C by MOESP, B and D by N4SID, after ib01ad with JOBD = "N"."""
-
-    package = "ctrlsys"
-    identify = staticmethod(_ctrlsys_combined)
-
-    def apart(self) -> dict[str, str]:
-        return promises.more_block_rows_than_states("ib01bd: n (int): System order (0 < n < nobr)") | promises.coloured()
+def _apart_from_ctrlsys() -> dict[str, str]:
+    return promises.more_block_rows_than_states("ib01bd: n (int): System order (0 < n < nobr)") | promises.coloured()
 
 
-class Ctrlsys(CtrlsysCombined):
-    """A, B, C and D by MOESP."""
-
-    identify = staticmethod(_ctrlsys)
-    structure = staticmethod(_ctrlsys_zeros)
+Ctrlsys = _of("ctrlsys", _apart_from_ctrlsys, identify=_ctrlsys, structure=_ctrlsys_zeros)
+CtrlsysCombined = _of("ctrlsys", _apart_from_ctrlsys, identify=_ctrlsys_combined)
 
 
 def _slycot_zeros(A: Array, F: Array, C: Array, G: Array) -> dict[str, Any]:
@@ -189,12 +164,7 @@ def _slycot_zeros(A: Array, F: Array, C: Array, G: Array) -> dict[str, Any]:
     return _zeros_of_slicot(nu, rank, infz[:dinfz], Af, Bf, m)
 
 
-class Slycot(Package):
-    """SLICOT's normal rank, finite zeros and infinite zeros."""
-
-    package = "slycot"
-    structure = staticmethod(_slycot_zeros)
-
+Slycot = _of("slycot", structure=_slycot_zeros)
 
 # -- python-control: no normal rank and no infinite zeros ---------------------------------------------------------------------------------
 
@@ -241,23 +211,11 @@ def _zeros_without_slycot(A: Array, F: Array, C: Array, G: Array) -> dict[str, A
         return _control_zeros(A, F, C, G)
 
 
-class Control(Package):
-    """markov by least squares, then eigensys_realization; the finite zeros alone."""
-
-    package = "control"
-    identify = staticmethod(_control)
-    structure = staticmethod(_control_zeros)
-
-    def apart(self) -> dict[str, str]:
-        over = promises.not_over(_markov_parameters, "markov takes the impulse response to be over after m samples")
-        return over | promises.from_a_state("markov has no initial state")
+def _apart_from_control() -> dict[str, str]:
+    over = promises.not_over(_markov_parameters, "markov takes the impulse response to be over after m samples")
+    return over | promises.from_a_state("markov has no initial state")
 
 
-class ControlWithoutSlycot(Package):
-    """The zeros of square systems, which the package finds otherwise where slycot is not installed."""
-
-    package = "control"
-    structure = staticmethod(_zeros_without_slycot)
-
-    def apart(self) -> dict[str, str]:
-        return promises.not_square("zeros of square systems alone")
+Control = _of("control", _apart_from_control, identify=_control, structure=_control_zeros)
+_SQUARE = partial(promises.not_square, "zeros of square systems alone")
+ControlWithoutSlycot = _of("control", _SQUARE, structure=_zeros_without_slycot)

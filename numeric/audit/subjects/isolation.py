@@ -1,5 +1,6 @@
 """A named adapter in a process of its own: it may hang, crash, print, fork or exhaust memory, and the audit goes on.
 
+Auditee     has `functions`, what it offers; `perform` gives the result of one check, `explain` what is probably wrong
 Isolated    the worker process of one adapter; `perform` gives the result of a check whatever becomes of the process
 
 What is asked crosses to that process as data, and its answers are compared here: the truth is never where the adapter can look.
@@ -21,12 +22,30 @@ from ....base.errors import InvalidData, shorten
 from ....base.processes import STANDARD, Limits
 from ..adapter import excused, known, not_promised
 from ..diagnosing.explaining import explained
-from ..records import Broken, Check, CheckResult, Measurement, Refused, perform
+from ..records import Broken, Check, CheckResult, Function, Measurement, Refused, perform
 from .programs import LOADING, Program
 from .wire import packed, unpacked
 
 
-class Isolated:
+class Auditee:
+    """It answers checks; `functions` are those that it offers, `_apart` is why checks of a pattern were never promised."""
+
+    functions: tuple[str, ...]
+    _apart: dict[str, str]
+
+    def perform(self, check: Check) -> CheckResult:
+        """Return the result of one check; this never raises for what the subject does."""
+        return replace(perform(check, self._function(check)), not_promised=excused(check, self._apart))
+
+    def explain(self, check: Check) -> str:
+        """Return what is probably wrong where the check fails; nothing where finding that out takes too long or breaks the subject."""
+        return explained(check, self._function(check))
+
+    def _function(self, check: Check) -> Function:
+        raise NotImplementedError
+
+
+class Isolated(Auditee):
     """This is the adapter `name` (see `adapter.load`). `functions`: what it offers. Raises InvalidData where it cannot be loaded."""
 
     def __init__(self, name: str, limits: Limits = STANDARD) -> None:
@@ -35,9 +54,9 @@ class Isolated:
         command = [sys.executable, "-P", "-m", "faultspace.numeric.audit.subjects.worker", name]
         self._program = Program(command, limits, more={"PYTHONPATH": paths})
         self._loaded, self._left = False, limits.seconds
-        self._apart: dict[str, str] = {}
+        self._apart = {}
         try:
-            self.functions: tuple[str, ...] = tuple(self._load())
+            self.functions = tuple(self._load())
         except Broken as failure:
             raise InvalidData(f"adapter {name}: it cannot be loaded ({failure}); importing it in Python shows why") from None
 
@@ -51,14 +70,6 @@ class Isolated:
         """End the process and what it started; the next check starts another."""
         self._loaded = False
         self._program.close()
-
-    def perform(self, check: Check) -> CheckResult:
-        """Return the result of one check; this never raises for what the adapter does."""
-        return replace(perform(check, self._function(check)), not_promised=excused(check, self._apart))
-
-    def explain(self, check: Check) -> str:
-        """Return what is probably wrong where the check fails; nothing where finding that out takes too long or breaks the adapter."""
-        return explained(check, self._function(check))
 
     def _function(self, check: Check) -> _Remote:
         """Return the function that a check asks, with the time that the check may take before it."""

@@ -1,7 +1,5 @@
 """This says who is put through the checks: an object in this process, an adapter by its name, a program, a published package.
 
-Auditee      has `functions`, what it offers, `perform`, which gives the result of one check, and `explain`, which says what is probably
-             wrong where it fails; neither raises for what the subject does
 InProcess    an object whose functions run in this process, without limits: it could look at the answers
 opened       the subject that the arguments of `audit` name, closed at the end
 label        how `faultspace audit` is told of it
@@ -14,52 +12,30 @@ import shlex
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import Protocol
 
 from ....base.errors import InvalidData
 from ....base.processes import Limits
-from ..adapter import excused, fitting, guarded, not_promised
-from ..diagnosing.explaining import explained
+from ..adapter import fitting, guarded, not_promised
 from ..peers import VARIABLES
 from ..peers import peer as peer_named
-from ..records import Check, CheckResult, perform
-from .isolation import Isolated
+from ..records import Check, Function
+from .isolation import Auditee, Isolated
 from .subprocess_adapter import Exec
 
 REFERENCE = "faultspace.numeric.audit.reference"
 Command = str | Sequence[str]
 
 
-class Auditee(Protocol):
-    """It answers checks; `functions` are those that it offers."""
-
-    @property
-    def functions(self) -> tuple[str, ...]: ...
-
-    def perform(self, check: Check) -> CheckResult: ...
-
-    def explain(self, check: Check) -> str: ...
-
-
-class InProcess:
+class InProcess(Auditee):
     """This is an object with one or more of the functions. Raises InvalidData where it has none."""
 
     def __init__(self, implementation: object) -> None:
         self._called = {name: guarded(one) for name, one in fitting(implementation).items()}
+        self.functions = tuple(self._called)
         self._apart = not_promised(implementation)
 
-    @property
-    def functions(self) -> tuple[str, ...]:
-        """These are the names of the functions that it has."""
-        return tuple(self._called)
-
-    def perform(self, check: Check) -> CheckResult:
-        """This is the result of one check."""
-        return replace(perform(check, self._called[check.function]), not_promised=excused(check, self._apart))
-
-    def explain(self, check: Check) -> str:
-        """This is what is probably wrong where the check fails."""
-        return explained(check, self._called[check.function])
+    def _function(self, check: Check) -> Function:
+        return self._called[check.function]
 
 
 @contextmanager

@@ -11,7 +11,6 @@ import hashlib
 import json
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from importlib.resources import files
 from pathlib import Path
@@ -31,7 +30,7 @@ from .questions import GROWS, Argument, question
 
 FORMAT = "faultspace-audit-check/1"
 SHORT = 100  # samples of a record that is made for the arguments beside it, which do not depend on its length
-READERS = ("read_checks.py", "read_checks.m", "read_checks.jl", "README.md")
+READERS = ("read_checks.py", "read_checks.m", "read_checks.jl", "README.md", "schema.json")
 
 # -- how an answer is compared with the truth, in words that need no code of ours ---------------------------------------------------------
 
@@ -95,12 +94,6 @@ GROWTH = (
 )
 EITHER = " To refuse is an answer here, too: what cannot be told may stay untold."
 FREE = " Nothing is due: whatever is answered is told, and counts neither for nor against."
-
-
-@dataclass(frozen=True)
-class _Kept:
-    name: str
-    text: str
 
 
 def document(check: Check) -> dict[str, Any]:
@@ -207,11 +200,11 @@ def write_checks(folder: Path, only: Sequence[str], tell: Progress) -> int:
     except OSError as error:
         raise InvalidInput(f"{quote_path(str(folder))}: cannot be made ({reason(error)}), expected a folder to write into") from None
     here = files("faultspace.numeric.audit.upstream").joinpath("readers")
-    kept = [_Kept(name, here.joinpath(name).read_text("utf-8")) for name in READERS]
-    kept.append(_Kept("schema.json", here.joinpath("schema.json").read_text("utf-8")))
-    for one in kept:
-        write_text(folder / one.name, one.text)
-    sums = [(one.name, _digest(one.text)) for one in kept]
+    sums = []
+    for name in READERS:
+        text = here.joinpath(name).read_text("utf-8")
+        write_text(folder / name, text)
+        sums.append((name, _digest(text)))
     for done, check in enumerate(checks):
         tell(check.full_name, done, len(checks))
         name = f"checks/{file_name(check)}"

@@ -115,16 +115,6 @@ def _full_where_short(r: Any, windows: int) -> list[int]:
     return [reference.window_ranks(r, s)[-1] if (r.shape[1] + 1) * s - 1 <= len(r) else r.shape[1] * s for s in range(1, windows + 1)]
 
 
-def _without_G() -> Callable[..., Any]:
-    """Answers kept by A, F and C."""
-    kept: dict[Any, Any] = {}
-
-    def structure(A: Any, F: Any, C: Any, G: Any) -> Any:
-        return kept.setdefault((A.tobytes(), F.tobytes(), C.tobytes()), reference.structure(A, F, C, G))
-
-    return structure
-
-
 def _by_the_beginning() -> Callable[..., Any]:
     """Answers kept by the length of the record and its first samples."""
     kept: dict[Any, Any] = {}
@@ -207,7 +197,6 @@ MANNERS: tuple[Mutant, ...] = (
     mutant("caches-there", "a temporary file", "leaves-no-files", fault_dimension=_after(lambda: os.close(tempfile.mkstemp()[0]))),
     mutant("remembers", "a state left by the last record", "order-of-calls", fault_space=_remembering()),
     mutant("by-identity", "answers kept by the address of the array", "same-array-new-data", reconstruct=_by_identity()),
-    mutant("kept-without-G", "answers kept by A, F and C", "one-argument-changed", structure=_without_G()),
     mutant("kept-by-the-beginning", "answers kept by the first ten samples", "same-beginning", window_ranks=_by_the_beginning()),
     mutant("one-buffer", "all answers in one array", "earlier-answers-stay", reconstruct=_in_one_buffer()),
     mutant("hoarding", "every record kept", "forgets-the-records", fault_space=_hoarding()),

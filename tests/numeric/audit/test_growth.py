@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 import time
+from functools import partial
 
 import numpy as np
 import pytest
@@ -19,30 +20,24 @@ def _spin(seconds: float) -> None:
 
 
 def test_memory_that_was_given_back_is_seen() -> None:
-    with footprint() as spent:
+    def work() -> None:
         held = np.ones(8_000_000)
         time.sleep(0.05)
         del held
-    assert 60e6 < spent.memory < 100e6
-    with footprint() as spent:
-        time.sleep(0.02)
-    assert spent.memory < 10e6
+
+    assert 60e6 < footprint(work) < 100e6
+    assert footprint(lambda: time.sleep(0.02)) < 10e6
 
 
 def test_time_is_that_of_the_processor() -> None:
-    with timed() as spent:
-        time.sleep(0.3)
-    assert spent.seconds < 0.15
-    with timed() as spent:
-        _spin(0.3)
-    assert 0.2 < spent.seconds < 0.5
+    assert timed(lambda: time.sleep(0.3)) < 0.15
+    assert 0.2 < timed(lambda: _spin(0.3)) < 0.5
 
 
 def test_children_count() -> None:
     work = "import time; x = bytearray(80_000_000); t = time.process_time()\nwhile time.process_time() - t < 0.4: pass"
-    with footprint() as held, timed() as spent:
-        subprocess.run([sys.executable, "-c", work], check=True)
-    assert held.memory > 70e6 and spent.seconds > 0.35
+    ran = partial(subprocess.run, [sys.executable, "-c", work], check=True)
+    assert footprint(ran) > 70e6 and timed(ran) > 0.35
 
 
 @pytest.mark.parametrize(

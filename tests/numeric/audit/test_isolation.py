@@ -41,30 +41,21 @@ def _adapter(tmp_path: Path, body: str, head: str = "") -> str:
 
 @pytest.mark.parametrize(
     ("body", "verdict", "words"),
-    [
-        # What is slow here is a question of the program alone, and tests of `test_subprocess.py` ask it daily of one that starts at once.
+    [  # limits of time and memory, streams and codes are questions of the program alone, of `test_subprocess.py` and `unseen`
         pytest.param("pass", "pass", "", marks=pytest.mark.slow),
-        pytest.param("time.sleep(600)", "broken", "no answer within 10 s", marks=pytest.mark.slow),
-        pytest.param("while True: pass", "broken", "no answer within 10 s", marks=pytest.mark.slow),
         ("os.abort()", "broken", "SIGABRT"),
         pytest.param("ctypes.string_at(0)", "broken", "SIGSEGV", marks=pytest.mark.slow),
         ("sys.exit(0)", "broken", "SystemExit(0)"),
-        pytest.param("while True: os.write(2, b'noise' * 100000)", "broken", "standard error", marks=pytest.mark.slow),
-        pytest.param("os._exit(3)", "broken", "ended without an answer", marks=pytest.mark.slow),
-        pytest.param("sys.stderr.write('out of luck'); sys.stderr.flush(); os._exit(3)", "broken", "out of luck", marks=pytest.mark.slow),
         ("print('garbage'); os.write(1, b'garbage\\n'); sys.stdout.flush()", "pass", ""),
         pytest.param("sys.stdin.readline()", "pass", "", marks=pytest.mark.slow),
         ("os.fork()", "broken", "forked"),
-        pytest.param("held = [np.ones(1 << 22) for _ in range(1 << 12)]", "broken", "GiB", marks=pytest.mark.slow),
         pytest.param("np.ones(1 << 50)", "broken", "MemoryError", marks=pytest.mark.slow),
-        # What an answer must be is asked in `test_audit.py`, of functions in this process.
-        pytest.param("return np.ones((2, 2)) > 1", "broken", "number", marks=pytest.mark.slow),
         pytest.param("raise KeyboardInterrupt", "broken", "ended without an answer", marks=pytest.mark.slow),
     ],
 )
 def test_what_breaks_is_told_and_the_run_goes_on(tmp_path: Path, body: str, verdict: str, words: str) -> None:
     name = _adapter(tmp_path, body)
-    first, second = audit(name, only=[ONE, TWO], seconds=10.0 if "10 s" in words else 60.0, gibibytes=0.5)
+    first, second = audit(name, only=[ONE, TWO], seconds=60.0, gibibytes=0.5)
     assert (first.name, first.verdict) == (ONE, verdict) and words in first.detail
     assert (second.name, second.verdict) == (TWO, "pass")
 
@@ -73,12 +64,6 @@ def test_a_process_left_behind_ends_with_the_audit(tmp_path: Path) -> None:
     number = tmp_path / "number"
     first, second = audit(_adapter(tmp_path, child(number)), only=[ONE, TWO])
     assert first.verdict == "broken" and "left 1 process behind" in first.detail and ends(number) and second.verdict == "pass"
-
-
-def test_a_process_that_leaves_the_session_ends_with_the_audit(tmp_path: Path) -> None:
-    number = tmp_path / "number"
-    (record,) = audit(_adapter(tmp_path, f"{child(number, ', start_new_session=True')}; time.sleep(0.3)"), only=[ONE])
-    assert record.verdict == "broken" and "left 1 process behind" in record.detail and ends(number)
 
 
 def test_a_process_that_no_parent_and_no_session_leads_to_is_found_by_its_mark(tmp_path: Path) -> None:

@@ -1,6 +1,6 @@
 """What goes to those who do not have faultspace: files that a schema and readers know, and scripts that show a failure.
 
-Minimal implementations, in `minimal/`, take the place of somebody's code; a part of the checks takes the place of all.
+Implementations that were written from the pages alone take the place of somebody's code; a part of the checks takes the place of all.
 """
 
 from __future__ import annotations
@@ -79,11 +79,18 @@ def read(folder: Path) -> Iterator[dict[str, Any]]:
         yield json.loads(file.read_text("utf-8"))
 
 
+def begun(value: Any) -> Any:
+    """Return a document with the first rows of its arrays, whose numbers are looked at one by one, and are alike."""
+    if isinstance(value, dict):
+        return {name: begun(one) for name, one in value.items()}
+    return [begun(one) for one in value[:5]] if isinstance(value, list) else value
+
+
 def test_every_file_keeps_the_schema_and_the_schema_refuses_others(folder: Path) -> None:
     schema = json.loads((folder / "schema.json").read_text("utf-8"))
     validator = jsonschema.Draft202012Validator(schema)
-    documents = list(read(folder))
-    for one in documents[:: every()]:
+    documents = list(map(begun, read(folder)))
+    for one in documents:
         validator.validate(one)
         assert len(one["recipe"]) > 20 and one["effect"]
     wrong: tuple[dict[str, Any], ...] = ({"demand": "may-hold"}, {"recipe": ""}, {"calls": [{"arguments": []}]}, {"extra": 1})
@@ -213,12 +220,12 @@ def without_ours(python: str, folder: Path, file: Path) -> subprocess.CompletedP
     return run(python, "-I", "read_checks.py", ".", str(file), cwd=folder)
 
 
-def test_the_reader_in_python_passes_a_minimal_implementation_and_fails_a_broken_one(folder: Path, tmp_path: Path) -> None:
-    minimal = HERE / "minimal" / "minimal.py"
+def test_the_reader_in_python_passes_an_independent_implementation_and_fails_a_broken_one(folder: Path, tmp_path: Path) -> None:
+    minimal = HERE / "independent" / "other.py"
     right = without_ours(sys.executable, folder, minimal)
     assert right.returncode == 0, right.stdout + right.stderr
     asked = int(right.stdout.split(" checks, 0 failed")[0].split()[-1])
-    assert asked > 40
+    assert asked > 100
     broken = tmp_path / "broken.py"
     spoiling = "\n\nkept = identify\ndef identify(*a):\n    A, B, C, D = kept(*a)\n    return A, B, C, D + 1e-6\n"
     broken.write_text(minimal.read_text("utf-8") + spoiling, "utf-8")
@@ -348,7 +355,7 @@ def test_scripts_of_manners_and_growth_notice_what_they_are_for() -> None:
     text = script("inputs-untouched[one-fault]-fault_dimension", FUNCTIONS, "python")
     assert executed(text, {"fault_dimension": writing})[0] == 1
     text = script("memory-grows-with-N*-fault_dimension", FUNCTIONS, "python")
-    assert executed(text, {"fault_dimension": lambda r: float(np.sum(np.ones((len(r), len(r)))))})[0] == 1
+    assert executed(text, {"fault_dimension": lambda r: float(np.sum(np.ones((len(r), len(r)), dtype=np.int8)))})[0] == 1
     assert executed(text, {"fault_dimension": lambda r: 1})[0] == 0
     with pytest.raises(InvalidData, match="Python alone"):
         script("memory-grows-with-N*-fault_dimension", FUNCTIONS, "octave")

@@ -17,7 +17,7 @@ def told(what, got, expected, off, bound):
     print("  got", got, "\n  expected", expected)
 
 # -- how nfoursid: NFourSID is called
-def _nfoursid(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
+def by_nfoursid(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
     import pandas
     from nfoursid.nfoursid import NFourSID
 
@@ -30,7 +30,7 @@ def _nfoursid(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any
     found, _ = run.system_identification(rank=order)
     return found.a, found.b, found.c, found.d
 
-identify = _nfoursid
+identify = by_nfoursid
 
 # -- the question
 A = np.array([[0.0, -1.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]])

@@ -24,7 +24,7 @@ def nearest(got, expected):
     return np.array([left.pop(int(np.argmin(np.abs(np.array(left) - z)))) for z in pairs] or left)
 
 # -- how nfoursid: NFourSID is called
-def _nfoursid(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
+def by_nfoursid(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
     import pandas
     from nfoursid.nfoursid import NFourSID
 
@@ -37,7 +37,7 @@ def _nfoursid(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any
     found, _ = run.system_identification(rank=order)
     return found.a, found.b, found.c, found.d
 
-identify = _nfoursid
+identify = by_nfoursid
 
 # -- the question
 y = np.array([

@@ -1,4 +1,4 @@
-1;  % An implementation in Octave, written from the audit's pages alone, by the algorithms of plain.py beside it. It needs no package.
+1;  % An implementation in Octave, written from the audit's pages alone, by the standard algorithms of textbooks. It needs no package.
 
 % Arguments
 

@@ -1,4 +1,4 @@
-"""A third implementation, written from the pages of the audit alone, by other algorithms than plain.py; see README.md beside it.
+"""An implementation, written from the pages of the audit alone, by other algorithms than octave.m and our own; see README.md beside it.
 
 It identifies by difference equations: least squares where the data are free of noise, inputs of the past as instruments and
 output-error steps where they are not, then the realisation of Ho and Kalman (1966). Ranks of windows are those of QR with exchanges;

@@ -1,5 +1,5 @@
 function mine = minimal()
-% MINIMAL  What minimal.py is, for Octave and MATLAB: a struct of functions that need nothing of anybody's.
+% MINIMAL  For Octave and MATLAB, a struct of functions that need nothing of anybody's.
   mine = struct('identify', @identify, 'residual', @residual, 'window_ranks', @window_ranks, 'fault_dimension', @fault_dimension);
 end
 function finite(varargin)
