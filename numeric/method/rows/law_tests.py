@@ -36,7 +36,7 @@ import numpy as np
 
 from ....base.arrays import Array
 from ....base.chi_squared import chi_squared_tail
-from ...data.plain import plain
+from ...data.plain import by_name, plain
 from ..model.models import StateSpaceModel, observability_matrix
 from ..space.basis import ROUGH, KernelBasis, colour_of, kernel_basis
 from .bootstrap import redrawn
@@ -109,15 +109,7 @@ class Laws:
         """Return a JSON-ready dict of the numbers that the answer rests on; the ratio of sphericity is null of a single row."""
         found = self.sphericity
         shape = None if found is None else {"log_likelihood_ratio": plain(found.nats), "expected": plain(found.expected)}
-        return {
-            "rows": self.count,
-            "holds": self.holds,
-            "probability": plain(self.probability),
-            "level": plain(self.level),
-            "gain": plain(self.gain),
-            "sphericity": shape,
-            "shares": plain(self.shares),
-        }
+        return {"rows": self.count, "sphericity": shape} | by_name(self, "holds", "probability", "level", "gain", "shares")
 
 
 @dataclass(frozen=True)

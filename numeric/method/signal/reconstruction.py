@@ -23,7 +23,7 @@ from ....base.arrays import Array
 from ....base.progress import Progress, silent
 from ....base.sheets import Shown, counted
 from ....base.threads import one_thread
-from ...data.plain import plain
+from ...data.plain import by_name
 from ...data.records import SampleStore, Stored, stored
 from ...data.validation import signal
 from ..plotting import plot_stored_signal
@@ -103,18 +103,8 @@ class Reconstruction(Solution, Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict of everything but the samples, which `v` has; complex zeros are [real, imaginary]."""
-        return {
-            "samples": len(self.store),
-            "n_v": self.store.width,
-            "delay": self.delay,
-            "trusted": list(self.trusted),
-            "zeros": plain(self.zeros),
-            "left_invertible": self.left_invertible,
-            "misfit": plain(self.misfit),
-            "mismatch": plain(self.mismatch),
-            "reason": self.reason,
-            "x0": plain(self.x0),
-        }
+        found = by_name(self, "delay", "trusted", "zeros", "left_invertible", "misfit", "mismatch", "reason", "x0")
+        return {"samples": len(self.store), "n_v": self.store.width} | found
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the signal into the matplotlib axes `ax`, new ones where None are given, and return them; samples that are not determined

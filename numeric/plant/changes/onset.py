@@ -23,7 +23,7 @@ from ....base.arrays import Array
 from ....base.errors import InvalidData
 from ....base.sheets import Shown, counted
 from ....base.threads import one_thread
-from ...data.plain import plain
+from ...data.plain import by_name, plain
 from ...data.records import SampleStore, Stored, stored
 from ...data.validation import signal, whole
 from .change_scan import LEAST, Reader, Scan, changed_outputs, choose_lags, located, scan
@@ -62,17 +62,7 @@ class Onset:
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict."""
-        return {
-            "sample": self.sample,
-            "interval": list(self.interval),
-            "p_value": self.p_value,
-            "changed": list(self.changed),
-            "chances": plain(self.chances),
-            "stretch": list(self.stretch),
-            "shift": plain(self.shift),
-            "growth": plain(self.growth),
-            "size": plain(self.size),
-        }
+        return by_name(self) | {"size": plain(self.size)}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -135,18 +125,8 @@ class FaultOnset(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict."""
-        return {
-            "onsets": [onset.to_json() for onset in self.onsets],
-            "samples": self.samples,
-            "healthy": self.healthy,
-            "reference": list(self.reference),
-            "deviation": plain(self.deviation),
-            "level": self.level,
-            "confidence": self.confidence,
-            "p_value": self.p_value,
-            "lags": self.lags,
-            "reason": self.reason,
-        }
+        names = ("onsets", "samples", "healthy", "reference", "deviation", "level", "confidence", "p_value", "lags", "reason")
+        return by_name(self, *names)
 
 
 @dataclass(frozen=True, eq=False)
