@@ -32,7 +32,7 @@ def verify(
 ) -> int:
     """Decide the claims of the paper.
 
-    A claim gets a line; -v adds the long tables, --claim prints a page of one. Exit 0 if every verdict is the expected one, else 1.
+    A claim gets a line; -v adds a page of each, --claim prints that of one. Exit 0 if every verdict is the expected one, else 1.
     """
     from . import verifying
 

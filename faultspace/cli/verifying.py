@@ -22,9 +22,7 @@ from ..proofs.verification import verify
 from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, NOT_AS_EXPECTED
 from .reading_files import prepare_folder
-from .verdict_tables import hypotheses_table, print_differences, print_lines, print_machine, print_page, print_summary, verdict_table
-
-WIDE = 100  # below it the columns of the long tables hold a word a line
+from .verdict_tables import print_differences, print_lines, print_machine, print_page, print_summary
 
 
 def run(
@@ -80,20 +78,14 @@ def _rechecked() -> bool:
 
 
 def _print(report: Report, *, pages: bool, verbose: bool) -> None:
-    """Print what is not as expected, then a line for each claim, or a page, or the long tables (where they fit, else the pages), and always
-    the summary line last."""
+    """Print what is not as expected, then pages, a line for each claim, or both, and always the summary line last."""
     console = answers()
     print_differences(console, report)
-    tables = verbose and console.width >= WIDE
-    if tables:
-        console.print(verdict_table(report))
-        if report.hypotheses:
-            console.print(hypotheses_table(report.hypotheses))
-    elif pages or verbose:
+    if pages or verbose:
         for claim in report.claims:
             print_page(console, claim, [row for row in report.hypotheses if row.claim == claim.claim.id])
-    if report.corpus and (verbose or pages):
-        paragraph(console, report.corpus, "systems: ")
+        if report.corpus:
+            paragraph(console, report.corpus, "systems: ")
     if pages:
         print_machine(console, report)
     else:

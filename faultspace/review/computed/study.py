@@ -14,7 +14,7 @@ from typing import Any
 
 from ...base.progress import Progress, silent
 from ...exact.structure.record import analyze
-from ...numeric.audit.scoreboard.records import Audited, Board
+from ...numeric.audit.scoreboard import Audited, Board
 from ...numeric.study.groups import by_zeros
 from ...numeric.study.paper_example import IDENTIFIED_WINDOW, PUBLISHED_THRESHOLD, SHOWN_WINDOWS, example_v, published_ranks
 from ...numeric.study.paper_example import SAMPLES as EXAMPLE_SAMPLES
