@@ -117,7 +117,7 @@ class Study(StudyCases, Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready record: settings, tables, cases. Equal studies give equal records."""
-        rows = {"by_zeros": by_zeros(self), "by_phase": by_phase(self), "cases": self.cases, "failed": self.failed}
+        rows: dict[str, Any] = {"by_zeros": by_zeros(self), "by_phase": by_phase(self), "cases": self.cases, "failed": self.failed}
         return {
             **by_name(self.plan, "name", "title", "metric", "metric_text", "estimators"),
             **by_name(self, "seed", "samples"),

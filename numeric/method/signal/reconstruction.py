@@ -180,13 +180,12 @@ def reconstruct_fault(
 
     on_progress("reconstructing the fault signal", 0, N)
     not_zero(any(np.any(rows) for rows in store.pieces()))
-    if x0 is not None or N <= LONGEST:
-        found = _single(solve(0, N, x0), store, kept)
-    else:
-        begin = solve(0, LONGEST)
+    begin, margin = solve(0, N if x0 is not None else min(N, LONGEST), x0), 0
+    if len(begin.v) < N:
         margin = max(begin.trusted[0], LONGEST - begin.trusted[1], LEAST_MARGIN)
-        lost = begin.trusted[0] >= begin.trusted[1] or 4 * margin > LONGEST
-        found = _single(solve(0, N), store, kept) if lost else _joined(begin, solve, store, margin, kept, on_progress)
+        if begin.trusted[0] >= begin.trusted[1] or 4 * margin > LONGEST:
+            begin = solve(0, N)
+    found = _joined(begin, solve, store, margin, kept, on_progress)
     on_progress("reconstructing the fault signal", N, N)
     return found
 
@@ -222,13 +221,6 @@ def _joined(
     misfit = float(np.sqrt(left / whole)) if whole else 0.0
     known = {field.name: getattr(begin, field.name) for field in fields(Solution)} | {"trusted": trusted, "misfit": misfit}
     return Reconstruction(store=v, mismatch=mismatch, left=parts[0], whole=parts[1], **known)
-
-
-def _single(whole: Stretch, r: SampleStore, within: tuple[int, int]) -> Reconstruction:
-    given = r.read(0, len(whole.v))
-    parts = _squares(given - whole.simulated, given, 0, within)
-    known = {field.name: getattr(whole, field.name) for field in fields(Solution)}
-    return Reconstruction(store=stored(whole.v), mismatch=0.0, left=parts[0], whole=parts[1], **known)
 
 
 def _squares(error: Array, given: Array, start: int, within: tuple[int, int]) -> Array:
