@@ -1,7 +1,4 @@
-"""Run `faultspace verify`, which decides every claim of the ledger anew, with the certificates that the verdicts rest on.
-
-run             the command's body
-"""
+"""Run `faultspace verify`, which decides every claim of the ledger anew, with the certificates that the verdicts rest on."""
 
 from __future__ import annotations
 

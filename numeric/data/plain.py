@@ -1,8 +1,4 @@
-"""Numbers, arrays and records as JSON has them.
-
-plain      a value: null for what is not finite, [real, imaginary] for what is complex
-by_name    fields of a record under their names
-"""
+"""Numbers, arrays and records as JSON has them."""
 
 from __future__ import annotations
 

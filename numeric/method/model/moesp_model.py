@@ -1,9 +1,4 @@
-"""This is what an identification by MOESP returns: the model with the account of its order, or the error that no order could be chosen.
-
-MoespModel       the model, how it was found and how far to trust it
-Gap              the gap in the singular values at the order taken
-OrderUndecided   the error where the singular values have no gap to trust
-"""
+"""This is what an identification by MOESP returns: the model with the account of its order, or the error that no order could be chosen."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,8 +1,4 @@
-"""What a monitor says: alarms, and what it saw of the samples that it was given.
-
-Alarm       one test has crossed its threshold
-Watched     alarms, statistics and innovations of a stretch of samples
-"""
+"""What a monitor says: alarms, and what it saw of the samples that it was given."""
 
 from __future__ import annotations
 
