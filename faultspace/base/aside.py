@@ -1,7 +1,4 @@
-"""This lets something that waits for another program go on in a thread of its own, beside what this process does.
-
-aside    begins it, and gives a future of the result
-"""
+"""This lets something that waits for another program go on in a thread of its own, beside what this process does."""
 
 from __future__ import annotations
 

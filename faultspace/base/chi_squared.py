@@ -1,8 +1,4 @@
-"""The law of chi-squared, without `scipy.stats`, which takes half a second to load and is loaded by no common command.
-
-chi_squared_tail        the probability of more than x
-chi_squared_quantile    what is exceeded with probability 1 - q
-"""
+"""The law of chi-squared, without `scipy.stats`, which takes half a second to load and is loaded by no common command."""
 
 from scipy.special import chdtrc, gammaincinv
 

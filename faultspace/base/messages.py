@@ -1,7 +1,4 @@
-"""What is said on standard error, one line at a time.
-
-say    one line, whatever the message holds
-"""
+"""What is said on standard error, one line at a time."""
 
 from __future__ import annotations
 

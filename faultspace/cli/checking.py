@@ -1,6 +1,4 @@
 """`faultspace check`: certificates through the checker, which decides alone; here they are only opened, and the answers shown.
-
-run          the command's body
 --rocq       besides, what Rocq's kernel makes of the certificates that the checker has verified
 """
 

@@ -1,8 +1,4 @@
-"""`faultspace claim`: claims of your own, decided; or, with --explain, what each part of them is on a system, or a pair.
-
-run          the command's body
-sharpen      its body with --sharpen
-"""
+"""`faultspace claim`: claims of your own, decided; or, with --explain, what each part of them is on a system, or a pair."""
 
 from __future__ import annotations
 

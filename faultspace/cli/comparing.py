@@ -1,7 +1,4 @@
-"""Run `faultspace compare`, which decides whether two systems make the same outputs and shows a word that separates them if not.
-
-run          the command's body
-"""
+"""Run `faultspace compare`, which decides whether two systems make the same outputs and shows a word that separates them if not."""
 
 from __future__ import annotations
 

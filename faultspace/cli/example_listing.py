@@ -1,7 +1,4 @@
-"""Run `faultspace examples`, which lists what comes with the package or copies it into a folder, with a record of faulty data.
-
-run          the command's body
-"""
+"""Run `faultspace examples`, which lists what comes with the package or copies it into a folder, with a record of faulty data."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Run `faultspace limit`, which computes exactly what subspace identification converges to for an experiment.
-
-run          the command's body
-"""
+"""Run `faultspace limit`, which computes exactly what subspace identification converges to for an experiment."""
 
 from __future__ import annotations
 

@@ -102,7 +102,7 @@ def in_our_words(message: str) -> str:
 
 
 Json = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else on standard output.")]
-Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="Print the long tables, too.")]
+Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="Print a page of each claim, too.")]
 Floats = Annotated[bool, typer.Option("--floats-exactly", help="Take floats as the dyadic rationals that they are.")]
 OneSystem = Annotated[str, typer.Argument(metavar="SYSTEM", help="A system file, - or example:NAME.")]
 Scheduler = Annotated[str | None, typer.Option(metavar="ADDRESS", help="Work on the Dask cluster with this scheduler instead.")]

@@ -1,12 +1,10 @@
-"""Print what `faultspace verify` says by itself, the long tables of `--verbose`, and the page of a claim of `--claim ID`.
+"""Print what `faultspace verify` says by itself, and the page of a claim, which `--claim ID` and `--verbose` ask for.
 
 print_differences   what is not as expected, before all else
 print_rest         the hypotheses, the attacks and Rocq, a sentence each; print_machine: the last of these
 print_summary      the last line
 hypothesis_words, attack_words   a sentence each
 print_page         a claim in full: its readings with evidence, attacks, locks and certificates, then what happens without each hypothesis
-verdict_table      a row for each reading, with its statement, hypotheses, evidence and certificates
-hypotheses_table   a row for each hypothesis dropped
 rows_worth_reading   the rows that are worth showing; all are in the JSON
 attack_lines       what the adversary tried on a statement
 hashes             certificates by the start of their SHA-256
@@ -18,9 +16,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from rich import box
 from rich.console import Console
-from rich.table import Table
 from rich.text import Text
 
 from ..base.sheets import counted
@@ -33,54 +29,7 @@ from .consoles import paragraph
 
 SHORT = 12
 MOST_SHOWN = 2
-HELP = "--claim ID prints the card of a claim, -v the long tables, --out DIR writes the certificates."
-
-
-def verdict_table(report: Report) -> Table:
-    """Return a table with a row for each claim as stated and one for each reading as checked, with what its verdict rests on."""
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1), pad_edge=False)
-    table.add_column("claim / reading", overflow="fold", max_width=32)
-    table.add_column("verdict", no_wrap=True)
-    table.add_column("statement / hypotheses / evidence", overflow="fold")
-    table.add_column("certificates", no_wrap=True)
-    table.add_column("own s", no_wrap=True, justify="right")
-    for claim in report.claims:
-        stated = Text.assemble((claim.claim.statement, "bold"), (f"  ({claim.claim.reference}) {_standing(claim)}", "dim"))
-        table.add_row(Text(claim.claim.id, style="bold"), verdict_text(claim.verdict, claim.expected, "\n"), stated, "", "")
-        for result in claim.readings:
-            reading, outcome = result.reading, result.outcome
-            words = Text.assemble(
-                reading.statement,
-                (f"\nhypotheses: {'; '.join(reading.hypotheses) or 'none'}", "dim"),
-                (f"\n{outcome.evidence}", "dim italic"),
-                (f"\nfor all systems: {reading.missing}" if reading.missing else "", "dim italic"),
-                ("".join(f"\nattacked by {line}" for line in attack_lines(result.attacks)), "dim italic"),
-            )
-            name = f"  {reading.id}{' (ours)' if reading.repair else ''}"
-            verdict = verdict_text(outcome.verdict, result.expected, "\n")
-            table.add_row(name, verdict, words, hashes(outcome.certificates, outcome.accepted), f"{result.seconds:.1f}")
-        table.add_section()
-    return table
-
-
-def hypotheses_table(rows: Sequence[Row]) -> Table:
-    """Return a table of which hypotheses are needed: a row for each dropped alone, and for each two that are needed only together."""
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1), pad_edge=False, title="which hypotheses are needed", title_justify="left")
-    table.add_column("claim / without", overflow="fold", max_width=44)
-    table.add_column("verdict", no_wrap=True)
-    table.add_column("counterexample or evidence", overflow="fold")
-    table.add_column("certificates", no_wrap=True)
-    ablation = None
-    for row in rows_worth_reading(rows):
-        if row.ablation != ablation:
-            ablation = row.ablation
-            table.add_section()
-            table.add_row(Text(row.claim, style="bold"), "", Text(row.conclusion, style="bold"), "")
-        name = f"  {' and '.join(row.dropped) or 'nothing dropped'}"
-        verdict = Text.assemble(verdict_text(row.verdict, row.expected or row.verdict, "\n"), ("\n" + row.meaning, "dim"))
-        words = Text("\n".join([row.evidence, *(f"attacked by {line}" for line in attack_lines(row.attacks))]), style="dim italic")
-        table.add_row(name, verdict, words, hashes(row.certificates, row.accepted))
-    return table
+HELP = "--claim ID prints the card of a claim, -v all readings, --out DIR writes the certificates."
 
 
 def rows_worth_reading(rows: Sequence[Row]) -> list[Row]:
@@ -109,11 +58,11 @@ def hashes(certificates: Sequence[Certificate], accepted: int) -> str:
     return "\n".join([*found[:MOST_SHOWN], *more, *total])
 
 
-def verdict_text(verdict: Verdict, expected: str, between: str = " ") -> Text:
+def verdict_text(verdict: Verdict, expected: str) -> Text:
     """Return the verdict, red beside the expected one where it is another."""
     if verdict == expected:
         return Text(str(verdict), style=STYLES[verdict])
-    return Text(f"{verdict}{between}(expected {expected})", style="bold red")
+    return Text(f"{verdict} (expected {expected})", style="bold red")
 
 
 def print_page(console: Console, claim: ClaimResult, rows: Sequence[Row]) -> None:
@@ -121,6 +70,7 @@ def print_page(console: Console, claim: ClaimResult, rows: Sequence[Row]) -> Non
     heading = Text.assemble((claim.claim.id, "bold"), f"  ({claim.claim.reference}): ", verdict_text(claim.verdict, claim.expected))
     paragraph(console, heading)
     paragraph(console, claim.claim.statement, f"  {claim.claim.whose}: ")
+    paragraph(console, _standing(claim), "  ")
     for result in claim.readings:
         kind = "reading of ours" if result.reading.repair else "reading"
         name = Text.assemble((result.reading.id, "bold"), ": ", verdict_text(result.outcome.verdict, result.expected))

@@ -26,9 +26,7 @@ from .claim_cards import print_card, print_sentences
 from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, NOT_AS_EXPECTED
 from .reading_files import prepare_folder
-from .verdict_tables import hypotheses_table, print_differences, print_machine, print_page, print_rest, print_summary, verdict_table
-
-WIDE = 100  # below it the columns of the long tables hold a word a line
+from .verdict_tables import print_differences, print_machine, print_page, print_rest, print_summary
 
 
 def run(
@@ -92,16 +90,11 @@ def _rechecked() -> bool:
 
 
 def _print(report: Report, *, pages: bool, verbose: bool) -> None:
-    """Print what is not as expected, then a sentence for each claim, the cards of those asked for, or the long tables (where they fit, else
-    the pages), and always the summary line last."""
+    """Print what is not as expected, then a sentence for each claim, or the cards of those asked for, with `verbose` all of each claim, and
+    always the summary line last."""
     console = answers()
     print_differences(console, report)
-    tables = verbose and not pages and console.width >= WIDE
-    if tables:
-        console.print(verdict_table(report))
-        if report.hypotheses:
-            console.print(hypotheses_table(report.hypotheses))
-    elif not pages and not verbose:
+    if not pages and not verbose:
         print_sentences(console, report.claims)
     else:
         for claim in report.claims:

@@ -5,9 +5,8 @@
     adapter      what an implementation is: a few optional functions; PROTOCOL.md has them for other languages
     reference    our own numeric branch as an implementation
     records      Check, Measurement, CheckResult, and `perform`
-    signatures   whether functions take what they will be given
-    names        how people name checks, with patterns
     expectations failures that are known
+    scoreboard   all that is installed against all checks: board.json, README's table, FINDINGS.md, reproducers
 
     diagnosing/  what is probably wrong with an answer that failed
     reports/     failures folded, JUnit, badges, versions
@@ -19,7 +18,6 @@
     making/      how the vectors are computed
     subjects/    who is asked, and where it runs
     peers/       published packages as implementations
-    scoreboard/  all that is installed against all checks: board.json, README's table, FINDINGS.md, reproducers
 
 Comparisons are of what no state basis changes, in exact arithmetic where the answer allows.
 """

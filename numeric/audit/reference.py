@@ -13,7 +13,7 @@ from ...base.errors import InvalidData
 from ...base.sheets import counted
 from ..data.validation import enough_samples, signal
 from ..method.model.asymptotic_likelihood import arx_reduction
-from ..method.model.models import StateSpaceModel
+from ..method.model.models import StateSpaceModel, lower_toeplitz
 from ..method.model.past_inputs import UNDETERMINED, pi_moesp
 from ..method.model.residuals import residual as subtract
 from ..method.ranks.hankel_ranks import rounding_ranks
@@ -92,14 +92,10 @@ def identified_fault_space(y: Array, u: Array, order: int, n_v: int) -> tuple[Ar
 
 
 def _infinite_zero_orders(A: Array, F: Array, C: Array, G: Array) -> list[int]:
-    n, m = F.shape
-    model = StateSpaceModel(A, F, C, G)
-    pulse = model.markov(n + 1).reshape(-1, m)
-    p, orders, before = len(C), list[int](), 0
-    for k in range(n + 1):
-        rows = p * (k + 1)
-        T = np.hstack([np.vstack([np.zeros((p * j, m)), pulse[: rows - p * j]]) for j in range(k + 1)])
-        rank = _rank(T)
+    markov = StateSpaceModel(A, F, C, G).markov(len(A) + 1)
+    orders, before = list[int](), 0
+    for k in range(len(markov)):
+        rank = _rank(lower_toeplitz(markov[: k + 1]))
         orders += [k] * (rank - before - len(orders))
         before = rank
     return orders

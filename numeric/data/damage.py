@@ -1,8 +1,4 @@
-"""This turns what libraries say of damaged files into complaints about the file, and refuses files that unpack to what no disk holds.
-
-from_library      whatever a library raises over a file is a complaint about that file
-unpacks_to        refuses what is larger, unpacked, than its packed bytes can be, or than there is room for
-"""
+"""This turns what libraries say of damaged files into complaints about the file, and refuses files that unpack to what no disk holds."""
 
 from __future__ import annotations
 

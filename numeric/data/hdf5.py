@@ -1,7 +1,5 @@
 """This reads the variables of a MAT file of version 7.3, which is HDF5, by h5py where it is installed.
 
-hdf5_arrays    the numeric variables by name, each read when it is asked for
-
 MATLAB writes arrays in its own order, columns first, so that HDF5 has their axes the other way around: they are turned back here. What is
 no array of numbers (structures, cells, text) is left out. HDF5 can have its numbers in other files of whoever reads it, by links, virtual
 datasets and external storage: a file that does so is refused, and none of these is opened.

@@ -35,7 +35,7 @@ from ...base.others_text import printable
 from ...base.progress import Progress
 from ...base.sheets import Shown, counted, several
 from .clocks import Clock
-from .plain import plain
+from .plain import by_name, plain
 from .validation import PIECE
 
 IN_MEMORY = 1 << 24
@@ -170,17 +170,13 @@ class Record(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict of everything but the samples."""
-        known = self.channels
+        known, clock = self.channels, self.clock
         return {
             "samples": len(self),
             "experiments": list(self.lengths) or [len(self)],
-            "inputs": list(self.inputs),
-            "outputs": list(self.outputs),
-            "format": self.format,
-            "dt": None if self.clock is None else self.clock.dt,
-            "least": plain(known.least - self.offset),
-            "greatest": plain(known.greatest - self.offset),
-            "mean": plain(known.mean - self.offset),
+            **by_name(self, "inputs", "outputs", "format"),
+            "dt": None if clock is None else clock.dt,
+            **{name: plain(getattr(known, name) - self.offset) for name in ("least", "greatest", "mean")},
             "deviation": plain(known.deviation),
         }
 

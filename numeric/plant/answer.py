@@ -99,16 +99,16 @@ class Identification(Answer):
         A model whose sample time was not stated is of discrete time with a time unstated (dt=True). Raises InvalidData where there is no
         model, and ImportError without python-control.
         """
-        from .report.other_programs import to_control
+        from .report.other_programs import handed_on
 
-        return to_control(self)
+        return handed_on(self).to_control(dt=self.dt, inputs=self.record.inputs, outputs=self.record.outputs)
 
     def to_scipy(self) -> Any:
         """Return the model as a scipy.signal.dlti with the sample time, 1 where none was stated. Raises InvalidData where there is no
         model."""
-        from .report.other_programs import to_scipy
+        from .report.other_programs import handed_on
 
-        return to_scipy(self)
+        return handed_on(self).to_scipy(dt=self.dt)
 
     def to_mat(self, path: str | os.PathLike[str]) -> None:
         """Write A, B, C, D, F, G, x0, the names `inputs` and `outputs` and the sample time `dt` into a MAT file, which MATLAB loads.

@@ -33,7 +33,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ..method.model.compression import EPS, Compression
-from ..method.model.models import BLOCK, StateSpaceModel, observability_matrix
+from ..method.model.models import BLOCK, StateSpaceModel, lower_toeplitz, observability_matrix
 from ..method.model.moesp_model import MoespModel
 from ..method.model.past_inputs import output_scale
 
@@ -87,7 +87,8 @@ def _norm(matrix: Any) -> float:
     return float(np.linalg.norm(matrix, 2)) if matrix.size else 0.0
 
 
-def _frobenius(matrix: Any) -> float:
+def frobenius(matrix: Any) -> float:
+    """Return the Frobenius norm."""
     return float(np.linalg.norm(matrix))
 
 
@@ -120,8 +121,8 @@ def setting(compression: Compression, found: MoespModel) -> Setting:
 def measured(where: Setting, relative: float) -> BackwardError:
     """Return E with every row at most `relative` times its row of H."""
     inputs = where.part("u", "u")
-    turn = relative * _frobenius(inputs) / _least(inputs)
-    return BackwardError(relative * _frobenius(where.part("f", "f")), relative * _frobenius(where.lower[len(inputs) :]), turn)
+    turn = relative * frobenius(inputs) / _least(inputs)
+    return BackwardError(relative * frobenius(where.part("f", "f")), relative * frobenius(where.lower[len(inputs) :]), turn)
 
 
 def by_qr(where: Setting) -> BackwardError:
@@ -140,7 +141,7 @@ def gram_error(where: Setting) -> float:
 def by_gram(where: Setting) -> BackwardError:
     """Bound the worst case of the Gram by displacement with its input block factored, rounding of the data included."""
     inputs, outputs, unit = where.part("u", "u"), where.part("y", "u"), gram_error(where)
-    least, size, response = _least(inputs), _frobenius(inputs), _frobenius(where.lower[len(inputs) :])
+    least, size, response = _least(inputs), frobenius(inputs), frobenius(where.lower[len(inputs) :])
     future = 0.5 * unit * size * size / least
     gain = _norm(np.linalg.solve(inputs.T, outputs.T))
     rounded = measured(where, UNIT)
@@ -160,7 +161,7 @@ def noise_free_range(where: Setting, backward: BackwardError) -> float:
 
 def _toeplitz_norm(model: StateSpaceModel, s: int) -> float:
     """Return |T_s(B, D)| by its block columns' Frobenius norms."""
-    return float(np.sqrt(sum(_frobenius(model.markov(k)) ** 2 for k in range(1, s + 1))))
+    return float(np.sqrt(sum(frobenius(model.markov(k)) ** 2 for k in range(1, s + 1))))
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,7 +188,7 @@ class ModelError:
             except np.linalg.LinAlgError:
                 return np.full(len(values), np.inf)
             conditions = np.linalg.norm(left, axis=1) * np.linalg.norm(right, axis=0)
-        return np.asarray(conditions * (self.A + SMALL * len(values) * EPS * _frobenius(self.model.A)))
+        return np.asarray(conditions * (self.A + SMALL * len(values) * EPS * frobenius(self.model.A)))
 
     @property
     def characteristic_polynomial(self) -> Array:
@@ -252,7 +253,7 @@ def _observability_error(model: StateSpaceModel, s: int, dA: float, dC: float) -
     """Return |dO_s|: block k moves by dC A^k + sum_j C A^j dA A^(k-1-j)."""
     states, outputs = _powers(model, s)
     blocks = [dC * states[k] + dA * float(np.dot(outputs[:k], states[:k][::-1])) for k in range(s)]
-    return _frobenius(np.array(blocks))
+    return frobenius(np.array(blocks))
 
 
 def moesp_error(where: Setting, backward: BackwardError, moved: float) -> ModelError:
@@ -264,7 +265,7 @@ def moesp_error(where: Setting, backward: BackwardError, moved: float) -> ModelE
     s, n = compression.block_rows, model.n
     dA, dC = _shift_error(where, moved), moved
     # Products of n by n matrices are those of an A wrong by n units.
-    dO = _observability_error(model, s, dA + n * UNIT * _frobenius(model.A), dC + n * UNIT * _frobenius(model.C))
+    dO = _observability_error(model, s, dA + n * UNIT * frobenius(model.A), dC + n * UNIT * frobenius(model.C))
     # This regression weighs outputs in their own units; with weights of one at the most, bounds on scaled outputs stand.
     weights = where.scale / where.scale.max()
     heavy = np.tile(weights, s)[:, np.newaxis]
@@ -287,19 +288,17 @@ def moesp_error(where: Setting, backward: BackwardError, moved: float) -> ModelE
     theta = np.vstack([D, model.B])
     through = M @ theta
     rest = (kernel.T @ response).reshape(len(kernel.T), s, n_u).transpose(1, 0, 2).reshape(-1, n_u) - through
-    toeplitz = np.zeros((len(seen_states), s * n_u))
-    for k in range(s):
-        toeplitz[k * p :, k * n_u : (k + 1) * n_u] = np.vstack([D, seen_states[: (s - 1 - k) * p] @ model.B])
+    toeplitz = lower_toeplitz(np.vstack([D, seen_states[: (s - 1) * p] @ model.B]).reshape(s, p, n_u))
     smallest = _least(future)
     hidden = heavy * np.hstack([where.part("y", "p"), where.part("y", "y")])
     seen = kernel.T @ hidden
-    turned_solve = SMALL * len(future) * EPS * _frobenius(future)  # the triangular solve's own backward error
+    turned_solve = SMALL * len(future) * EPS * frobenius(future)  # the triangular solve's own backward error
     dZ = (backward.outputs + _norm(response) * (backward.future + turned_solve)) / smallest
     dZ += _norm(seen) * backward.future / smallest**2
-    dT = float(np.sqrt(s)) * dO * _frobenius(model.B)
-    wrong = turned * _frobenius(response - toeplitz) + dZ + dT + small * (_frobenius(response) + _frobenius(M) * _frobenius(theta))
-    dM = float(np.sqrt(s)) * (turned * np.hypot(1.0, _norm(seen_states)) + dO) + small * _frobenius(M)
-    d_theta = wrong / least + dM * _frobenius(rest) / least**2
+    dT = float(np.sqrt(s)) * dO * frobenius(model.B)
+    wrong = turned * frobenius(response - toeplitz) + dZ + dT + small * (frobenius(response) + frobenius(M) * frobenius(theta))
+    dM = float(np.sqrt(s)) * (turned * np.hypot(1.0, _norm(seen_states)) + dO) + small * frobenius(M)
+    d_theta = wrong / least + dM * frobenius(rest) / least**2
     return ModelError(model, where.input_scale, where.scale, moved, dA, d_theta, dC, d_theta / float(weights.min()))
 
 
@@ -319,28 +318,28 @@ def output_error_error(where: Setting, moved: float, experiments: Sequence[tuple
     gain = float(outputs.sum())  # of x(k+1) = A x(k) + d(k) to C x
     # One sum of BLOCK samples' products at the most.
     step = (BLOCK * (n_u + n) + n) * UNIT
-    dA_used, dC_used = dA + step * _frobenius(model.A), dC + step * _frobenius(model.C)
+    dA_used, dC_used = dA + step * frobenius(model.A), dC + step * frobenius(model.C)
     regressors, rests, moves = [], [], []
     wrong = 0.0
     for number, (y, u) in enumerate(experiments):
         scaled_u, scaled_y = u / where.input_scale, y / where.scale
-        own, state_size = _regressor(model, scaled_u)
+        own, state_size = regressor_of(model, scaled_u)
         whole = np.zeros((own.shape[0], len(experiments) * n + parameters))
         whole[:, number * n : (number + 1) * n] = own[:, :n]
         whole[:, len(experiments) * n :] = own[:, n:]
         solution = np.linalg.lstsq(own, scaled_y.ravel(), rcond=None)[0]
         regressors.append(whole)
         rests.append(scaled_y.ravel())
-        trajectory = _state_size(model, scaled_u, solution[:n])
+        trajectory = state_norm(model, scaled_u, solution[:n])
         vectors = (1 + n_u) * n * n + BLOCK * (n_u + p)
         # Two factorisations one after the other, the first of what one linear map turns into rows.
         rounding = reflections_error(parameters + n + 1, own.shape[0]) + reflections_error(vectors, -(-len(y) // 4))
-        sized = rounding * (gain * (state_size + _frobenius(scaled_u) * np.sqrt(n)) + _frobenius(own))
+        sized = rounding * (gain * (state_size + frobenius(scaled_u) * np.sqrt(n)) + frobenius(own))
         rounded = relative + step
         wrong += (dC_used + gain * dA_used) * trajectory
-        wrong += rounded * (gain * _frobenius(model.B) + _frobenius(model.D)) * _frobenius(scaled_u) + rounded * _frobenius(scaled_y)
+        wrong += rounded * (gain * frobenius(model.B) + frobenius(model.D)) * frobenius(scaled_u) + rounded * frobenius(scaled_y)
         wrong += sized * float(np.linalg.norm(np.append(solution, 1.0)))
-        moves.append((dC_used + gain * dA_used) * state_size + sized + relative * np.sqrt(n + 1.0) * (gain + 1) * _frobenius(scaled_u))
+        moves.append((dC_used + gain * dA_used) * state_size + sized + relative * np.sqrt(n + 1.0) * (gain + 1) * frobenius(scaled_u))
     Phi, z = np.vstack(regressors), np.concatenate(rests)
     lengths = np.linalg.norm(Phi, axis=0)
     lengths[lengths == 0] = 1.0
@@ -354,7 +353,7 @@ def output_error_error(where: Setting, moved: float, experiments: Sequence[tuple
     return ModelError(model, where.input_scale, where.scale, moved, dA, dB, dC, d_phi / float(shared[n * n_u :].min()))
 
 
-def _regressor(model: StateSpaceModel, u: Array) -> tuple[Array, float]:
+def regressor_of(model: StateSpaceModel, u: Array) -> tuple[Array, float]:
     """Return Phi (N p, n + n n_u + p n_u) with y = Phi [x0, B by columns, D by rows], and the Frobenius norm of the states behind it."""
     n, p, n_u, N = model.n, model.p, u.shape[1], len(u)
     Phi, energy = np.zeros((N, p, n + n * n_u + p * n_u)), 0.0
@@ -373,7 +372,7 @@ def _regressor(model: StateSpaceModel, u: Array) -> tuple[Array, float]:
     return Phi.reshape(N * p, -1), float(np.sqrt(energy))
 
 
-def _state_size(model: StateSpaceModel, u: Any, x0: Any) -> float:
+def state_norm(model: StateSpaceModel, u: Any, x0: Any) -> float:
     """Return the Frobenius norm of the states x(0), ..., x(N - 1)."""
     states = StateSpaceModel(model.A, model.B, np.eye(model.n), np.zeros((model.n, u.shape[1]))).simulate(u, x0)
-    return _frobenius(states)
+    return frobenius(states)

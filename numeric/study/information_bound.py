@@ -9,10 +9,14 @@ whether Phi is known or has parameters of its own: in open loop those are orthog
 and nowhere else for a minimal model and an input that excites it; what depends on the basis has no bound.
 
 cramer_rao      the bound as an Uncertainty: standard deviations of Markov parameters, transfer function, poles
+settled, stable    the integral over the angles; the refusal of a model that is not stable
 relative_error  |first Markov parameters - true ones| over the root of their bound's trace: about one for an efficient estimate
 """
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -65,18 +69,27 @@ def cramer_rao(model: StateSpaceModel, spectra: Spectra, N: int) -> Uncertainty:
     [[[0.05]]]
     """
     samples = positive(N, "N")
+    stable(model)
+    return uncertainty_of(model, settled(partial(_information, model, spectra, samples)))
+
+
+def stable(model: StateSpaceModel) -> None:
+    """Raise InvalidData for a model that is not."""
     if spectral_radius(model.A) >= 1:
         raise InvalidData(
             f"the model is not stable: its poles reach modulus {spectral_radius(model.A):.6g}; a bound for N samples needs less than 1"
         )
-    before = np.zeros((0, 0))
-    count = COARSE
-    while True:
-        information = _information(model, spectra, samples, count)
-        settled = before.size and np.max(np.abs(information - before)) <= SAME_INTEGRAL * np.max(np.abs(information))
-        if settled or count >= FINE:
-            return uncertainty_of(model, information)
-        before, count = information, 2 * count
+
+
+def settled(information: Callable[[int], Array]) -> Array:
+    """Return the information matrix from so many angles that twice as many leave it the same, FINE at most."""
+    before, count = information(COARSE), 2 * COARSE
+    while count <= FINE:
+        now = information(count)
+        if np.max(np.abs(now - before)) <= SAME_INTEGRAL * np.max(np.abs(now)):
+            return now
+        before, count = now, 2 * count
+    return before
 
 
 def relative_error(estimate: StateSpaceModel, truth: StateSpaceModel, bound: Uncertainty, count: int = COUNT) -> float:

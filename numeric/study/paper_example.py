@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base.arrays import Array
-from ..method.model.models import StateSpaceModel, observability_matrix
+from ..method.model.models import StateSpaceModel, lower_toeplitz, observability_matrix
 from ..method.model.past_inputs import pi_moesp
 from ..method.ranks.rank_gap import FaultDimension, fault_dimension
 from ..method.ranks.sample_windows import hankel_factor
@@ -118,11 +118,6 @@ def exact_fault_space(A: Array, F: Array, C: Array, G: Array) -> Array:
     return np.asarray(np.linalg.svd(conditions)[2][np.linalg.matrix_rank(conditions, tol=1e-9) :].T)
 
 
-def _fault_matrices() -> tuple[Array, Array, Array, Array]:
-    model, F, G = system()
-    return model.A, F, model.C, G
-
-
 def _residuals(seed: int, samples: int) -> tuple[Array, Array, StateSpaceModel, Array]:
     """Return the residuals of the true and of the identified system from one random start, the identified model, T with O_true T =
     O_found."""
@@ -143,10 +138,7 @@ def _residuals(seed: int, samples: int) -> tuple[Array, Array, StateSpaceModel, 
 
 def _behaviour(A: Array, F: Array, C: Array, G: Array, s: int) -> Array:
     """Return [O_s T_s], (p s, n + n_v s)."""
-    markov = StateSpaceModel(A, F, C, G).markov(s)
-    zero = np.zeros_like(markov[0])
-    toeplitz = np.block([[markov[i - j] if i >= j else zero for j in range(s)] for i in range(s)])
-    return np.hstack([observability_matrix(A, C, s), toeplitz])
+    return np.hstack([observability_matrix(A, C, s), lower_toeplitz(StateSpaceModel(A, F, C, G).markov(s))])
 
 
 def _identified_error(r: Array, found: StateSpaceModel, to_true: Array, Z: Array, window: int, rank: int) -> float:

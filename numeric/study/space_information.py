@@ -26,6 +26,7 @@ kernel_rows         the rows of least degrees of a given A, F, C, G
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import scipy.linalg
@@ -37,13 +38,13 @@ from ...base.sheets import counted
 from ...base.threads import one_thread
 from ..data.validation import positive
 from ..method.model.invariants import half_transfers, off_gauge, system_matrix
-from ..method.model.models import StateSpaceModel, observability_matrix
-from ..method.model.weighted_reduction import Reduction, circle, spectral_radius
+from ..method.model.models import StateSpaceModel, lower_toeplitz, observability_matrix
+from ..method.model.weighted_reduction import Reduction, circle
 from ..method.ranks.sample_windows import ObservedCoordinates, observed_coordinates
 from ..method.space.estimate import SpaceUncertainty, kernel_conditions
 from ..method.space.space_uncertainty import turned_by_model, turned_by_rows
 from .driving_spectra import Spectrum, through
-from .information_bound import COARSE, FINE, SAME_INTEGRAL
+from .information_bound import COARSE, settled, stable
 
 RANK = 1e-8
 """Singular values of columns of unit length that count as zero: exact ones are some 1e-14 of the largest."""
@@ -112,19 +113,9 @@ def fault_space_bound(model: StateSpaceModel, F: ArrayLike, G: ArrayLike, spectr
     """
     samples = positive(N, "N")
     columns = _fault_columns(model, F, G)
-    if spectral_radius(model.A) >= 1:
-        raise InvalidData(
-            f"the model is not stable: its poles reach modulus {spectral_radius(model.A):.6g}; a bound for N samples needs less than 1"
-        )
+    stable(model)
     tied = _tied(model, columns, spectra)
-    before = np.zeros((0, 0))
-    count = COARSE
-    while True:
-        information = tied.information(samples, count)
-        settled = before.size and np.max(np.abs(information - before)) <= SAME_INTEGRAL * np.max(np.abs(information))
-        if settled or count >= FINE:
-            return tied.pushed(information)
-        before, count = information, 2 * count
+    return tied.pushed(settled(partial(tied.information, samples)))
 
 
 def _fault_columns(model: StateSpaceModel, F: ArrayLike, G: ArrayLike) -> Array:
@@ -268,12 +259,10 @@ def kernel_rows(A: Array, F: Array, C: Array, G: Array) -> list[Array]:
     Coordinates ought to be such that entries are of size one.
     """
     n, n_v = F.shape
-    p = len(C)
+    p, markov = len(C), StateSpaceModel(A, F, C, G).markov(n + 1)
     rows: list[Array] = []
     for s in range(1, n + 2):
-        markov = [G, *(observability_matrix(A, C, s - 1) @ F).reshape(-1, p, n_v)] if s > 1 else [G]
-        toeplitz = np.block([[markov[i - j] if i >= j else np.zeros((p, n_v)) for j in range(s)] for i in range(s)])
-        left, values, _ = np.linalg.svd(np.hstack([observability_matrix(A, C, s), toeplitz]))
+        left, values, _ = np.linalg.svd(np.hstack([observability_matrix(A, C, s), lower_toeplitz(markov[:s])]))
         kernel = left[:, int(np.sum(values > RANK * values[0])) :]
         shifts = [np.pad(row, ((first, s - len(row) - first), (0, 0))).ravel() for row in rows for first in range(s - len(row) + 1)]
         known = np.array(shifts).reshape(len(shifts), p * s).T

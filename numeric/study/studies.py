@@ -43,6 +43,7 @@ from ...base.errors import InvalidData, shorten
 from ...base.progress import Progress, silent
 from ...base.sheets import Shown, counted
 from ...base.tasks import Died, Task, Tasks, as_they_come, processes
+from ..data.plain import by_name
 from ..data.validation import positive
 from .groups import Group, Plan, StudyCases, by_phase, by_zeros
 from .plots import errors_by_zeros
@@ -116,21 +117,13 @@ class Study(StudyCases, Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready record: settings, tables, cases. Equal studies give equal records."""
-        plan = self.plan
+        rows: dict[str, Any] = {"by_zeros": by_zeros(self), "by_phase": by_phase(self), "cases": self.cases, "failed": self.failed}
         return {
-            "name": plan.name,
-            "title": plan.title,
-            "metric": plan.metric,
-            "metric_text": plan.metric_text,
-            "estimators": list(plan.estimators),
-            "seed": self.seed,
-            "samples": self.samples,
+            **by_name(self.plan, "name", "title", "metric", "metric_text", "estimators"),
+            **by_name(self, "seed", "samples"),
             "systems": len(self.cases) + len(self.failed),
             "vacuous": sum(case.vacuous for case in self.cases),
-            "by_zeros": [asdict(group) for group in by_zeros(self)],
-            "by_phase": [asdict(group) for group in by_phase(self)],
-            "cases": [asdict(case) for case in self.cases],
-            "failed": [asdict(each) for each in self.failed],
+            **{name: [asdict(row) for row in several] for name, several in rows.items()},
         }
 
     def plot(self, ax: Any = None) -> Any:

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -102,30 +103,6 @@ class Failed:
     reason: str
 
 
-@one_thread()
-def published_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
-    """Estimate a case as published: s = 5, the noise that is called 1 %, true matrices, the residual from a random initial state."""
-    return _with_true_model(index, seed, samples, PUBLISHED_WINDOW, NOISE_LEVEL, (PAPER,))
-
-
-@one_thread()
-def corrected_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
-    """Estimate a case with a window beyond the lag, noise of 1 %, true matrices, both estimators."""
-    return _with_true_model(index, seed, samples, CORRECTED_WINDOW, NOISE_LEVEL / NOISE_GAIN, (PAPER, LIKELIHOOD))
-
-
-@one_thread()
-def identified_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
-    """Estimate a case as published, with the identified model; a refusal of the identification is recorded, not raised."""
-    return _with_identified_model(index, seed, samples, PUBLISHED_WINDOW, NOISE_LEVEL, (PAPER,))
-
-
-@one_thread()
-def corrected_identified_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
-    """Estimate a case as corrected, with the identified model and both estimators, and by what `identify` does beside them."""
-    return _with_identified_model(index, seed, samples, CORRECTED_WINDOW, NOISE_LEVEL / NOISE_GAIN, (PAPER, LIKELIHOOD, LAWS))
-
-
 @dataclass(frozen=True)
 class Truth:
     """What the published estimator is told: the rank of R_s and n_z; it is `vacuous` where the rank leaves no null row."""
@@ -158,17 +135,21 @@ def attempted(
         return Failed(index, " ".join(f"{type(error).__name__}: {error}".split()))
 
 
+@one_thread()
 def _with_true_model(
-    index: int, seed: np.random.SeedSequence, samples: int, window: int, level: float, estimators: tuple[str, ...]
+    window: int, level: float, estimators: tuple[str, ...], index: int, seed: np.random.SeedSequence, samples: int
 ) -> Case:
+    """Estimate a case with the true matrices, the residual from a random initial state."""
     drawn = _Drawn(index, seed, samples, level, window)
     r = drawn.run.y - response(drawn.system.model, drawn.run.u, drawn.start.standard_normal(N_X))
     return drawn.case({name: drawn.estimate(name, r, drawn.system.model, np.eye(N_X)) for name in estimators})
 
 
+@one_thread()
 def _with_identified_model(
-    index: int, seed: np.random.SeedSequence, samples: int, window: int, level: float, estimators: tuple[str, ...]
+    window: int, level: float, estimators: tuple[str, ...], index: int, seed: np.random.SeedSequence, samples: int
 ) -> Case:
+    """Estimate a case with the identified model; a refusal of the identification is recorded, not raised."""
     drawn = _Drawn(index, seed, samples, level, window)
     by_laws = {LAWS: drawn.estimate_by_laws()} if LAWS in estimators else {}
     of_residual = [name for name in estimators if name != LAWS]
@@ -179,6 +160,13 @@ def _with_identified_model(
         return drawn.case(dict.fromkeys(of_residual, Estimate(None, None, str(error))) | by_laws)
     to_true = _aligned(drawn.system.model, model)
     return drawn.case({name: drawn.estimate(name, r, model, to_true) for name in of_residual} | by_laws)
+
+
+CORRECTED_LEVEL = NOISE_LEVEL / NOISE_GAIN  # noise of 1 %
+published_case = partial(_with_true_model, PUBLISHED_WINDOW, NOISE_LEVEL, (PAPER,))
+corrected_case = partial(_with_true_model, CORRECTED_WINDOW, CORRECTED_LEVEL, (PAPER, LIKELIHOOD))
+identified_case = partial(_with_identified_model, PUBLISHED_WINDOW, NOISE_LEVEL, (PAPER,))
+corrected_identified_case = partial(_with_identified_model, CORRECTED_WINDOW, CORRECTED_LEVEL, (PAPER, LIKELIHOOD, LAWS))
 
 
 def _aligned(true: StateSpaceModel, found: StateSpaceModel) -> Array:

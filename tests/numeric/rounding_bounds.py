@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from faultspace.numeric.method.model.compression import EPS
 from faultspace.numeric.method.model.models import StateSpaceModel, observability_matrix
-from faultspace.numeric.study.conditioning import SMALL, UNIT, BackwardError, Setting, reflections_error
-from faultspace.numeric.study.residual_conditioning import simulation_error, state_norm
+from faultspace.numeric.study.conditioning import SMALL, UNIT, BackwardError, Setting, reflections_error, state_norm
+from faultspace.numeric.study.residual_conditioning import simulation_error
 
 Array = NDArray[np.float64]
 

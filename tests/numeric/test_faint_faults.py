@@ -6,9 +6,10 @@ import numpy as np
 import scipy.signal
 
 from faultspace.base.arrays import Array
+from faultspace.numeric.method.model.feedback import one_step_errors
 from faultspace.numeric.method.rows.degree import excess, likelihood_ratio
 from faultspace.numeric.method.rows.evidence import arx_of
-from faultspace.numeric.method.rows.faint_faults import _errors, even_moments
+from faultspace.numeric.method.rows.faint_faults import even_moments
 from faultspace.numeric.method.rows.joint import JointMoments, compared_fits, course, joint_moments, refitted
 from faultspace.numeric.method.rows.remainder import remainder
 
@@ -29,7 +30,7 @@ def record(seed: int, *, slow: bool) -> tuple[Array, Array]:
 
 def both(y: Array, u: Array) -> tuple[JointMoments, JointMoments]:
     """Return the plain moments of a record and the even ones."""
-    data = joint_moments(y, u, 4, 256)
+    data = joint_moments([(y, u)], 4, 256)
     arx = arx_of([(y, u)], 1, data.scale)
     assert arx is not None
     return data, even_moments([(y, u)], data, course(data, 1, 4)[-1], arx, np.ones(P))
@@ -78,7 +79,7 @@ def test_the_slope_is_that_of_the_likelihood_of_faults_that_have_a_spectrum() ->
     cost it has the slope of the logarithm, with unequal shares, too."""
     rng = np.random.default_rng(5)
     y, u = record(2, slow=True)
-    data = joint_moments(y, u, 2, 256)
+    data = joint_moments([(y, u)], 2, 256)
     arx = arx_of([(y, u)], 1, data.scale)
     assert arx is not None
     shares = np.array([0.5, 1.0, 2.0])
@@ -119,4 +120,4 @@ def test_what_the_model_does_not_foretell() -> None:
     assert arx is not None
     h, k = arx.order, 100
     slow = sum(arx.outputs[i] @ y[k - i] - arx.inputs[i] @ u[k - i] for i in range(h + 1))
-    np.testing.assert_allclose(_errors(y, u, arx)[k - h], slow, atol=1e-12)
+    np.testing.assert_allclose(one_step_errors(y, u, arx, h)[k - h], slow, atol=1e-12)

@@ -39,7 +39,7 @@ def test_a_course_that_has_stuck_goes_on_from_above() -> None:
     clean = StateSpaceModel(A, np.hstack([B, F]), C, np.hstack([D, G])).simulate(np.hstack([u, v]), rng.standard_normal(3))
     y = clean + 0.03 * clean.std(axis=0) * w
     y, u = y - y.mean(axis=0), u - u.mean(axis=0)
-    data = joint_moments(y, u, 2)
+    data = joint_moments([(y, u)], 2)
     fits = course(data, 2, 4)
     better = from_above(data, fits)
     assert all(new.level <= old.level for new, old in zip(better, fits, strict=True)) and better[3].level < fits[3].level - 0.005

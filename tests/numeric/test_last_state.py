@@ -68,9 +68,9 @@ def test_wide_bands_refuse_no_degree() -> None:
     """Rows that turn fast within a band of the course leave there what a degree more explains; in narrow bands they do not."""
     system = planted(6, (), n=4, p=4, m=2)
     y, u = joint_record(system, 6, 5000, 60)
-    wide = joint_moments(y, u, 3)
+    wide = joint_moments([(y, u)], 3)
     fits = course(wide, 2, 5)
-    narrow = joint_moments(y, u, 3, 500)
+    narrow = joint_moments([(y, u)], 3, 500)
     found = [refitted(narrow, (2, 2), fits[4].rows), refitted(narrow, (2, 3), fits[5].rows)]
     assert excess(wide, fits[4], fits[5], misfits(1)) < 1e-6
     assert excess(narrow, found[0], found[1], misfits(1)) > 0.01
@@ -82,7 +82,7 @@ def test_the_law_of_the_degree() -> None:
     for seed in range(12):
         system = planted(30 + seed, n=2, p=2, m=1)
         y, u = joint_record(system, seed, 600, 40)
-        data = joint_moments(y, u, 4)
+        data = joint_moments([(y, u)], 4)
         chosen = least_degree(data, course(data, 1, 4), 0, 2, misfits(4))
         small += chosen.probabilities[2] < 0.01
         assert chosen.probabilities[1] < 1e-3
@@ -92,7 +92,7 @@ def test_the_law_of_the_degree() -> None:
 def test_a_descent_that_sticks_at_one_degree_leaves_the_answer_decided() -> None:
     """Levels of a course that gained nothing from degree 1 to 2, and much from 2 to 3; a step of one degree alone said that 1 suffices."""
     y, u = joint_record(planted(26, n=3, m=1), 26, 500, 40)
-    data = joint_moments(y, u, 4)
+    data = joint_moments([(y, u)], 4)
     fit = fitted(data, (1,))
     steps = [replace(fit, rows=(np.ones((d + 1, 4)),), level=level) for d, level in enumerate((0.0, -4.0, -3.9, -9.0, -9.005))]
     found = least_degree(data, steps, 0, 3, misfits(4))

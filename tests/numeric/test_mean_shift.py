@@ -15,7 +15,7 @@ from faultspace.numeric.method.space.shift_isolation import gain_errors
 from faultspace.numeric.plant.healthy.against_healthy import fault_dimension_against_healthy
 from faultspace.numeric.plant.healthy.detectable import visible_white_faults
 from faultspace.numeric.plant.healthy.healthy_model import healthy_reference, noise_share
-from faultspace.numeric.plant.healthy.mean_shift import mean_about_zero, mean_reference, mean_shift
+from faultspace.numeric.plant.healthy.mean_shift import mean_about_zero, mean_shift
 
 Array = NDArray[np.float64]
 UNITS = np.array([1e-6, 1.0, 1e6])
@@ -103,7 +103,7 @@ def test_about_zero() -> None:
         found = mean_about_zero(r[:, :1] * [1.0, 2.0, -1.0] + share * r)
         assert found.shifted is None and says in found.reason
     with pytest.raises(InvalidData, match="NaN"):
-        mean_reference(np.full((500, 3), np.nan))
+        mean_about_zero(np.full((500, 3), np.nan))
 
 
 def test_white_faults_of_the_stated_size_are_found() -> None:

@@ -41,7 +41,7 @@ def test_a_constant_of_the_windows_is_no_part_of_the_moments(samples: int) -> No
     y, u = quiet(2, samples, 20.0)
     assert about_means(np.hstack([y, u])) and not about_means(np.hstack([y, u]) + 1e-3)
     moved = y + 100.0
-    again = joint_moments(moved - moved.mean(axis=0), u, 3).moments
-    here = joint_moments(y, u, 3).moments
+    again = joint_moments([(moved - moved.mean(axis=0), u)], 3).moments
+    here = joint_moments([(y, u)], 3).moments
     np.testing.assert_allclose(again.moments, here.moments, atol=1e-9)
-    assert abs(here.weights.sum() - 1) < 1e-12 and here.weights[0] < joint_moments(moved, u, 3).moments.weights[0]
+    assert abs(here.weights.sum() - 1) < 1e-12 and here.weights[0] < joint_moments([(moved, u)], 3).moments.weights[0]

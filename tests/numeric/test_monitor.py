@@ -16,13 +16,14 @@ import pytest
 import scipy.stats
 
 import faultspace as fs
+from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData
 from faultspace.base.progress import silent
 from faultspace.numeric import Alarm, Monitor, StateSpaceModel, arx_reduction
 from faultspace.numeric.plant.monitor import thresholds
 from faultspace.numeric.plant.monitor.innovation_form import Predictor, innovation_form
 from faultspace.numeric.plant.monitor.statistics import TESTS, Bank, Settings, checked, roots
-from faultspace.numeric.plant.monitor.thresholds import calibrate, ideal_thresholds, simulated
+from faultspace.numeric.plant.monitor.thresholds import ideal_thresholds, largest_of_blocks, simulated
 
 PLANT = StateSpaceModel([[0.8, 0.3], [-0.3, 0.7]], [[1.0], [0.5]], [[1.0, 0.0], [0.3, 1.0]], [[0.0], [0.2]])
 NOTHING = StateSpaceModel(np.zeros((0, 0)), np.zeros((0, 1)), np.zeros((2, 0)), np.zeros((2, 1)))
@@ -245,16 +246,20 @@ def test_false_alarms_on_fresh_records_are_no_more_than_stated(model: StateSpace
     assert sum(counts) <= scipy.stats.poisson.isf(1e-3, 20.0)
 
 
+def calibrate(settings: Settings, level: float, errors: Array) -> thresholds.Calibration:
+    return thresholds.calibrated(settings, level, largest_of_blocks(settings, errors, errors), len(errors))
+
+
 def test_healthy_errors_that_are_larger_raise_the_thresholds_and_smaller_ones_do_not_lower_them() -> None:
     settings = Settings(p=2, window=WINDOW, shift=1.0)
     z = np.random.default_rng(4).standard_normal((1000, 2))
-    plain, loud, faint = (calibrate(settings, 1e-3, size * z, size * z) for size in (1.0, 1.5, 0.5))
+    plain, loud, faint = (calibrate(settings, 1e-3, size * z) for size in (1.0, 1.5, 0.5))
     assert np.all(loud.threshold > 1.3 * plain.ideal) and np.array_equal(faint.threshold, faint.ideal)
     assert "thresholds are raised, that of" in loud.notes[1] and len(plain.notes) == 1
     assert plain.needed == 10_000 and "1000 healthy samples cannot show" in plain.notes[0]
     z[::400] *= 20
-    assert any("is not steady" in note for note in calibrate(settings, 1e-2, z, z).notes) or np.all(
-        calibrate(settings, 1e-2, z, z).threshold[:2] > 2 * plain.ideal[:2]
+    assert any("is not steady" in note for note in calibrate(settings, 1e-2, z).notes) or np.all(
+        calibrate(settings, 1e-2, z).threshold[:2] > 2 * plain.ideal[:2]
     )
 
 

@@ -26,7 +26,7 @@ from faultspace.numeric.method.rows import bootstrap, remainder
 from faultspace.numeric.method.rows import law_tests as laws
 from faultspace.numeric.method.rows.evidence import Evidence
 from faultspace.numeric.method.rows.fault_count import count_faults
-from faultspace.numeric.method.rows.joint import ROUNDING, course, even_split, fitted, joint_moments, joint_moments_experiments
+from faultspace.numeric.method.rows.joint import ROUNDING, course, even_split, fitted, joint_moments
 from faultspace.numeric.method.rows.space_by_rows import fault_space_by_rows
 from faultspace.numeric.method.space.distances import principal_angles
 from faultspace.numeric.method.space.largest import largest_fault_space
@@ -56,13 +56,13 @@ def test_without_noise_the_rows_are_those_of_the_exact_branch(seed: int, p: int,
     F, C, G = (floats(each) for each in drawn)
     system = Planted(floats(A), F, C, G, np.zeros((3 + p, 0)), ())
     y, u = joint_record(system, seed, 400, None)
-    data = joint_moments(y, u, 3)
+    data = joint_moments([(y, u)], 3)
     indices = exact.left_minimal_indices
     total = sum(indices)
     assert tuple(indices) == even_split(total, len(indices)), "a case with another split says nothing about this one"
     fits = course(data, len(indices), total)
     assert np.exp(fits[-1].level) < ROUNDING and (total == 0 or fits[-2].level > -20)
-    found = [row[:, :p] for row in data.in_units(fits[-1].rows)]
+    found = [(row / data.scale)[:, :p] for row in fits[-1].rows]
     for angle in (0.0, 0.7, 2.5):
         true = spans([floats(row.coefficients) for row in exact.rows], angle)
         other = spans(found, angle)
@@ -73,19 +73,19 @@ def test_without_noise_the_rows_are_those_of_the_exact_branch(seed: int, p: int,
 
 def test_units_and_experiments() -> None:
     y, u = joint_record(planted(3, n=3), 3, 1200, 40)
-    one, other = joint_moments(y, u, 3), joint_moments(y * [1e6, 1.0, 1e-6], u * 1e3, 3)
+    one, other = joint_moments([(y, u)], 3), joint_moments([(y * [1e6, 1.0, 1e-6], u * 1e3)], 3)
     np.testing.assert_allclose(one.moments.moments, other.moments.moments, atol=1e-9)
-    both = joint_moments_experiments([(y[:600], u[:600]), (y[600:], u[600:])], 3)
+    both = joint_moments([(y[:600], u[:600]), (y[600:], u[600:])], 3)
     assert 0.9 * one.samples < both.samples < one.samples
     level, split = (fitted(each, (3,)).level for each in (one, both))
     assert abs(level - split) < 0.1
     # A row that is fitted across the seam of two experiments as if they were one is another matter: the seam is no law.
     broken, free = np.vstack([y[:600], y[:600]]), np.vstack([u[:600], u[600:]])
-    assert fitted(joint_moments(broken, free, 3), (3,)).level > level + 1
+    assert fitted(joint_moments([(broken, free)], 3), (3,)).level > level + 1
     with pytest.raises(InvalidData, match="same channels"):
-        joint_moments_experiments([(y, u), (y[:, :2], u)], 3)
+        joint_moments([(y, u), (y[:, :2], u)], 3)
     with pytest.raises(InvalidData, match="samples"):
-        joint_moments_experiments([(y, u), (y[:30], u[:30])], 3)
+        joint_moments([(y, u), (y[:30], u[:30])], 3)
 
 
 def test_faults_are_counted_from_several_experiments() -> None:

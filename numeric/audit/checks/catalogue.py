@@ -3,7 +3,6 @@
 GENERATORS   what yields checks, in the order in which they are asked: what a first call leaves behind is looked at first
 all_checks   every check, in that order; the kinds of trouble, drawn from a seed, come last
 quick_checks part of them, by a rule
-chosen       the checks of some functions, or those of them that are named
 """
 
 from __future__ import annotations

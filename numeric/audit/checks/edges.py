@@ -11,7 +11,7 @@ free_response     a residual without a fault, its system and its first state
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import cache, partial
 from typing import Any
@@ -82,10 +82,14 @@ def first(vector: FaultVector, samples: int) -> FaultVector:
 def shortest(vector: FaultVector) -> tuple[Matrix, tuple[int, ...]]:
     """Return the record in which the last of WINDOWS windows is square, and their ranks."""
     short = vector.r.rows(range((vector.system.p + 1) * WINDOWS - 1))
-    return short, tuple(rank(hankel(short, s)) for s in range(1, WINDOWS + 1))
+    return short, _ranks_of(short)
 
 
-def _must(slug: str, function: str, vector: str, claim: str, effect: str, measure: Callable[[Function], Iterator[Measurement]]) -> Check:
+def _ranks_of(r: Matrix) -> tuple[int, ...]:
+    return tuple(rank(hankel(r, s)) for s in range(1, WINDOWS + 1))
+
+
+def _must(slug: str, function: str, vector: str, claim: str, effect: str, measure: Callable[[Function], Iterable[Measurement]]) -> Check:
     return Check(slug, function, vector, claim, effect, Severity.SILENT, measure)
 
 
@@ -94,27 +98,17 @@ def _ranks(r: Matrix, due: tuple[int, ...], function: Function) -> Iterator[Meas
 
 
 def _shortest(vector: FaultVector) -> Iterator[Check]:
-    def ranks(function: Function) -> Iterator[Measurement]:
-        yield from _ranks(*shortest(vector), function)
-
-    effect = "no ranks, or wrong ones, of a record that has just samples enough"
-    yield _must("window-ranks-shortest-record", "window_ranks", vector.slug, "window-ranks", effect, ranks)
-
-    def count(function: Function) -> Iterator[Measurement]:
-        enough = vector.r.rows(range(samples_that_settle(vector.system.p, vector.lag)))
-        yield compared_count("n_v", function(floats(enough)), vector.n_v)
-
-    effect = "no number of faults, or a wrong one, from a record that has just samples enough"
-    yield _must("fault-dimension-shortest-record", "fault_dimension", vector.slug, "proposition-3", effect, count)
+    slug, effect = "window-ranks-shortest-record", "no ranks, or wrong ones, of a record that has just samples enough"
+    yield _must(slug, "window_ranks", vector.slug, "window-ranks", effect, lambda called: _ranks(*shortest(vector), called))
+    slug, effect = "fault-dimension-shortest-record", "no number of faults, or a wrong one, from a record that has just samples enough"
+    enough = range(samples_that_settle(vector.system.p, vector.lag))
+    count = partial(_counted, lambda: (floats(vector.r.rows(enough)),), vector.n_v)
+    yield _must(slug, "fault_dimension", vector.slug, "proposition-3", effect, count)
 
 
 def _few_samples(vector: FaultVector) -> Check:
-    effect = "no fault signal, or a wrong one, in a record that is shorter than the order"
-
-    def measure(function: Function) -> Iterator[Measurement]:
-        yield from signal_off(first(vector, FEW), function)
-
-    return _must("fault-signal-few-samples", "reconstruct", vector.slug, "trajectory-recovered", effect, measure)
+    slug, effect = "fault-signal-few-samples", "no fault signal, or a wrong one, in a record that is shorter than the order"
+    return _must(slug, "reconstruct", vector.slug, "trajectory-recovered", effect, lambda called: signal_off(first(vector, FEW), called))
 
 
 # -- nothing -----------------------------------------------------------------------------------------------------------------------------
@@ -131,12 +125,8 @@ def free_response(name: str) -> tuple[Matrix, ResidualSystem, Matrix]:
 def _no_fault(name: str) -> Iterator[Check]:
     """The ranks are what they are. The signal is zero, and to find nothing to restore is as right; a space of faults there is not."""
     r, system, x0 = free_response(name)
-
-    def ranks(function: Function) -> Iterator[Measurement]:
-        yield from _ranks(r, tuple(rank(hankel(r, s)) for s in range(1, WINDOWS + 1)), function)
-
     effect = "a free response is taken for a fault"
-    yield _must("window-ranks-no-fault", "window_ranks", name, "window-ranks", effect, ranks)
+    yield _must("window-ranks-no-fault", "window_ranks", name, "window-ranks", effect, lambda called: _ranks(r, _ranks_of(r), called))
     parts = tuple(floats(M) for M in (system.A, system.F, system.C, system.G))
     arguments = np.ascontiguousarray(floats(r)), *parts, floats(x0).ravel()
     zero = or_refused(partial(_silent, arguments))
@@ -162,30 +152,23 @@ def _silent(arguments: tuple[Any, ...], function: Function) -> Iterator[Measurem
 def _wrong_number(vector: FaultVector, told: int) -> Check:
     """To refuse is right, and so are the columns of the faults that act, from who counts them himself."""
     system, s = vector.system, vector.system.n + 1
-
-    def compare(function: Function) -> Iterator[Measurement]:
-        got = function(floats(vector.r), floats(system.A), floats(system.C), told, s)
-        yield from spaces_off(got, vector.space, vector.space_bounds[s])
-
     effect = "fault matrices that do not explain the data: as many columns as were told"
-    name = f"{vector.slug}-{told}-told"
-    return _must("fault-space-wrong-number", "fault_space", name, "problem-11", effect, or_refused(compare))
+    compare = partial(_spaces, (vector.r, system.A, system.C), (told, s), vector.space, vector.space_bounds[s])
+    return _must("fault-space-wrong-number", "fault_space", f"{vector.slug}-{told}-told", "problem-11", effect, or_refused(compare))
 
 
 def _as_many_as_outputs(vector: FaultVector) -> Check:
     """Where every output is faulty there is no law, and every column explains the residual: all of them, or a refusal."""
     system, m = vector.system, vector.n_v
-    C = system.C.rows(range(m))
-    size = system.n + m
-    everything = Matrix.identity(QQ, size)
+    everything = Matrix.identity(QQ, system.n + m)
+    given = vector.r.columns(range(m)), system.A, system.C.rows(range(m))
+    compare = partial(_spaces, given, (m, system.n + 1), everything, ROUNDED)
+    slug, effect = "fault-space-as-many-as-outputs", "true columns left out where the record excludes none"
+    return _must(slug, "fault_space", f"{vector.slug}-two-outputs", "problem-11", effect, or_refused(compare))
 
-    def compare(function: Function) -> Iterator[Measurement]:
-        got = function(floats(vector.r.columns(range(m))), floats(system.A), floats(C), m, system.n + 1)
-        yield from spaces_off(got, everything, ROUNDED)
 
-    effect = "true columns left out where the record excludes none"
-    name = f"{vector.slug}-two-outputs"
-    return _must("fault-space-as-many-as-outputs", "fault_space", name, "problem-11", effect, or_refused(compare))
+def _spaces(given: tuple[Matrix, ...], rest: tuple[int, ...], truth: Matrix, bound: float, function: Function) -> Iterator[Measurement]:
+    yield from spaces_off(function(*map(floats, given), *rest), truth, bound)
 
 
 def _impossible(vector: FaultVector) -> Iterator[Check]:
@@ -228,7 +211,9 @@ def _free_response(name: str) -> tuple[Any, ...]:
 
 
 def _none(slug: str, function: str, vector: str, arguments: Callable[[], tuple[Any, ...]]) -> Check:
-    def compare(called: Function) -> Iterator[Measurement]:
-        yield compared_count("n_v", called(*arguments()), 0)
+    effect, measure = "a fault is reported where none acts", or_refused(partial(_counted, arguments, 0))
+    return Check(slug, function, vector, "proposition-3", effect, Severity.SILENT, measure)
 
-    return Check(slug, function, vector, "proposition-3", "a fault is reported where none acts", Severity.SILENT, or_refused(compare))
+
+def _counted(arguments: Callable[[], tuple[Any, ...]], due: int, function: Function) -> Iterator[Measurement]:
+    yield compared_count("n_v", function(*arguments()), due)

@@ -18,11 +18,11 @@ from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.signals import simulate
 from faultspace.exact.system.systems import ResidualSystem
 
-from ..records import Check, Demand, Function, Measurement, Severity
+from ..records import Check, Severity
 from ..vectors.fault_vectors import UnexcitingVector, alike_inputs, unexciting_inputs
 from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import IdentificationVector, shipped
-from .faults import compared_count, window_ranks_off
+from .faults import free_count, window_ranks_off
 from .refusals import refuses
 
 
@@ -48,14 +48,9 @@ def response(model: IdentificationVector, u: Matrix) -> Matrix:
 
 
 def _count(vector: UnexcitingVector) -> Check:
-    """Yield checks that are free, since the data show fewer faults than there are."""
-
-    def measure(function: Function) -> Iterator[Measurement]:
-        yield compared_count("n_v, as many as the data show", function(floats(vector.r)), vector.visible)
-
+    """Return a check that is free, since the data show fewer faults than there are."""
     effect = "faults that do not excite are counted, or not: the data cannot tell"
-    slug = "fault-dimension-unexciting"
-    return Check(slug, "fault_dimension", vector.slug, "proposition-3", effect, Severity.SOMETIMES, measure, Demand.FREE)
+    return free_count("fault-dimension-unexciting", vector.slug, effect, "n_v, as many as the data show", vector.r, vector.visible)
 
 
 def _space(vector: UnexcitingVector) -> Check:

@@ -151,14 +151,18 @@ def compared_count(quantity: str, answer: Any, due: int) -> Measurement:
 
 
 def _as_many_as_outputs(vector: FaultVector) -> Check:
-    """Ask about the first m outputs alone, between which m faults leave no relation, nor would noise. Any answer is free and is shown."""
+    """Ask about the first m outputs alone, between which m faults leave no relation, nor would noise."""
+    slug, effect, first = "as-many-faults-as-outputs", "noise is taken for faults, or faults for noise", vector.r.columns(range(vector.n_v))
+    return free_count(slug, vector.slug, effect, "n_v, as many as outputs", first, vector.n_v)
+
+
+def free_count(slug: str, vector: str, effect: str, quantity: str, r: Matrix, due: int, claim: str = "proposition-3") -> Check:
+    """Return the check that shows how many faults are counted in r; any answer is free."""
 
     def measure(function: Function) -> Iterator[Measurement]:
-        yield compared_count("n_v, as many as outputs", function(floats(vector.r.columns(range(vector.n_v)))), vector.n_v)
+        yield compared_count(quantity, function(floats(r)), due)
 
-    effect = "noise is taken for faults, or faults for noise"
-    slug, severity = "as-many-faults-as-outputs", Severity.SOMETIMES
-    return Check(slug, "fault_dimension", vector.slug, "proposition-3", effect, severity, measure, Demand.FREE)
+    return Check(slug, "fault_dimension", vector, claim, effect, Severity.SOMETIMES, measure, Demand.FREE)
 
 
 def as_number(value: Any) -> float:

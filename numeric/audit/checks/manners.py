@@ -15,7 +15,8 @@ import numpy as np
 
 from ..records import Check, Function, Measurement, Refused, Severity, inside
 from ..vectors.fault_vectors import with_input
-from ..vectors.shipped_vectors import floats, shipped
+from ..vectors.rationals import floats
+from ..vectors.shipped_vectors import shipped
 
 
 def checks() -> Iterator[Check]:

@@ -24,7 +24,7 @@ from ..records import Check, Demand, Function, Measurement, Severity, or_refused
 from ..vectors.fault_vectors import FaultVector
 from ..vectors.rationals import floats, matrix, signs
 from ..vectors.shipped_vectors import IdentificationVector, shipped
-from .faults import ROUNDED, compared_count, ranks_off, space_off, spaces_off
+from .faults import ROUNDED, free_count, ranks_off, space_off, spaces_off
 from .identification import as_it_is
 
 SEED = 20250601
@@ -60,13 +60,7 @@ def _with(array: Array, value: float) -> Array:
 
 def _of_identify(vector: IdentificationVector) -> Iterator[Check]:
     n, s, slug = vector.order, vector.block_rows, vector.slug
-
-    def y() -> Array:
-        return floats(vector.y)
-
-    def u() -> Array:
-        return floats(vector.u)
-
+    y, u = partial(floats, vector.y), partial(floats, vector.u)
     # The other samples determine the model: whoever leaves the missing one out and finds it is right.
     yield _model("refuses-nan-output", vector, MISSING, lambda: (_with(y(), np.nan), u(), n, s))
     yield _model("refuses-nan-input", vector, MISSING, lambda: (y(), _with(u(), np.nan), n, s))
@@ -125,16 +119,7 @@ def same_output_twice() -> IdentificationVector:
 
 def _of_faults(vector: FaultVector) -> Iterator[Check]:
     system, slug, s = vector.system, vector.slug, vector.system.n + 1
-
-    def r() -> Array:
-        return floats(vector.r)
-
-    def nan() -> Array:
-        return _with(r(), np.nan)
-
-    def infinite() -> Array:
-        return _with(r(), np.inf)
-
+    r = partial(floats, vector.r)
     A, F, C, G = (floats(M) for M in (system.A, system.F, system.C, system.G))
     x0, n_v = np.zeros(len(A)), vector.n_v
     others: dict[str, tuple[Any, ...]] = {
@@ -144,8 +129,8 @@ def _of_faults(vector: FaultVector) -> Iterator[Check]:
         "reconstruct": (A, F, C, G, x0),
     }
     for function, rest in others.items():
-        yield refuses("refuses-nan-residual", function, slug, MISSING, partial(_before, nan, rest))
-        yield refuses("refuses-infinite-residual", function, slug, MISSING, partial(_before, infinite, rest))
+        for name, value in (("nan", np.nan), ("infinite", np.inf)):
+            yield refuses(f"refuses-{name}-residual", function, slug, MISSING, partial(_broken, vector, value, rest))
     short = "ranks of matrices with fewer columns than rows say nothing of the system"
     yield refuses("refuses-short-residual", "window_ranks", slug, "ranks of windows longer than the record", lambda: (r()[:5], 8))
     yield refuses("refuses-short-residual", "fault_dimension", slug, short, lambda: (r()[:7],), "settle-2")
@@ -175,7 +160,7 @@ def _of_faults(vector: FaultVector) -> Iterator[Check]:
     yield refuses("refuses-nan-model", "reconstruct", slug, none, lambda: (r(), A * np.nan, F, C, G, x0))
     yield refuses("refuses-nan-model", "structure", slug, none, lambda: (A * np.nan, F, C, G))
     u = floats(vector.v)
-    yield refuses("refuses-nan-output", "residual", slug, MISSING, lambda: (nan(), u, A, F, C, G))
+    yield refuses("refuses-nan-output", "residual", slug, MISSING, lambda: (_with(r(), np.nan), u, A, F, C, G))
     yield refuses("refuses-nan-input", "residual", slug, MISSING, lambda: (r(), _with(u.copy(), np.nan), A, F, C, G))
     unequal = "inputs paired with the wrong outputs"
     yield refuses("refuses-unequal-lengths", "residual", slug, unequal, lambda: (r(), u[:-5], A, F, C, G))
@@ -195,8 +180,8 @@ def _too_short(vector: FaultVector) -> Check:
     return Check(slug, "window_ranks", vector.slug, None, effect, Severity.SILENT, or_refused(compare))
 
 
-def _before(record: Callable[[], Array], rest: tuple[Any, ...]) -> tuple[Any, ...]:
-    return record(), *rest
+def _broken(vector: FaultVector, value: float, rest: tuple[Any, ...]) -> tuple[Any, ...]:
+    return _with(floats(vector.r), value), *rest
 
 
 def _space(
@@ -215,11 +200,6 @@ def _below_the_lag(vector: FaultVector) -> Iterator[Check]:
     slug, claim = "fault-space-at-the-lag", "sharp-windows"
     yield Check(slug, "fault_space", vector.slug, claim, effect, Severity.SILENT, or_refused(compare))
     few = (vector.system.p + 1) * (vector.lag + 1) - 2  # one sample less, and R_(lag + 1) has fewer columns than rows
-
-    def count(called: Function) -> Iterator[Measurement]:
-        yield compared_count("n_v", called(floats(vector.r)[:few]), vector.n_v)
-
-    effect = "the gap of windows below the lag is taken for the number of faults"
-    # Free: the data are those of more faults and a shorter lag as well.
-    slug, severity = "fault-dimension-below-the-lag", Severity.SOMETIMES
-    yield Check(slug, "fault_dimension", vector.slug, "sharp-windows", effect, severity, count, Demand.FREE)
+    slug, effect = "fault-dimension-below-the-lag", "the gap of windows below the lag is taken for the number of faults"
+    # The data are those of more faults and a shorter lag as well.
+    yield free_count(slug, vector.slug, effect, "n_v", vector.r.rows(range(few)), vector.n_v, "sharp-windows")

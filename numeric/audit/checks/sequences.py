@@ -48,7 +48,11 @@ def checks() -> Iterator[Check]:
     effect = "an answer to another question, which differs in one matrix alone"
     yield _check("one-argument-changed", "structure", "square-complex", effect, _structures)
     effect = "an answer to another record, which began alike"
-    for name, measure in (("window_ranks", _ranks), ("residual", _residuals), ("reconstruct", _signals)):
+    for name, measure in (
+        ("window_ranks", _ranks),
+        ("residual", partial(_of_alike, residual_off)),
+        ("reconstruct", partial(_of_alike, signal_off)),
+    ):
         yield _check("same-beginning", name, "two-faults", effect, measure)
     for name, vector, arguments in (*questions(), _silent_model()):
         effect = "an answer that was kept is overwritten, or what is done to it is done to the caller's data"
@@ -137,14 +141,9 @@ def alike() -> tuple[FaultVector, FaultVector]:
     return vector, replace(other, bounds=bounds)
 
 
-def _residuals(function: Function) -> Iterator[Measurement]:
+def _of_alike(compare: Callable[..., Iterator[Measurement]], function: Function) -> Iterator[Measurement]:
     for one in (*alike(), alike()[0]):
-        yield from residual_off(one, function)
-
-
-def _signals(function: Function) -> Iterator[Measurement]:
-    for one in (*alike(), alike()[0]):
-        yield from signal_off(one, function)
+        yield from compare(one, function)
 
 
 # -- what is kept ------------------------------------------------------------------------------------------------------------------------

@@ -12,7 +12,8 @@ import numpy as np
 from ..adapter import ZeroStructure
 from ..records import Broken, Check, Function, Measurement, NotOffered, Severity, Sides
 from ..vectors.exact_comparison import matched
-from ..vectors.shipped_vectors import StructureVector, floats, shipped
+from ..vectors.rationals import floats
+from ..vectors.shipped_vectors import StructureVector, shipped
 
 
 def checks() -> Iterator[Check]:

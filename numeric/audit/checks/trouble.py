@@ -21,13 +21,13 @@ import numpy as np
 
 from ....base.arrays import Array
 from ..making.trouble_vectors import troubles
-from ..records import Broken, Check, Demand, Function, Measurement, Refused, Severity, or_refused
+from ..records import Broken, Check, Function, Measurement, Refused, Severity, or_refused
 from ..vectors.fault_vectors import FaultVector
 from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import IdentificationVector
 from ..vectors.trouble import Trouble, default_troubles
 from . import structure
-from .faults import PLAIN, WINDOW, count_off, space_off
+from .faults import PLAIN, WINDOW, free_count, space_off
 from .identification import RECOVERY, as_it_is
 
 Compare = Callable[[Function], Iterator[Measurement]]
@@ -45,15 +45,11 @@ def of_trouble(trouble: Trouble) -> Iterator[Check]:
         yield from structure.of_vector(trouble.structure)
     for slug, function, claim, effect, compare in questions(trouble):
         if function != "structure":
-            yield Check(slug, function, trouble.kind, claim, effect, Severity.SILENT, partial(_measured, compare))
+            yield Check(slug, function, trouble.kind, claim, effect, Severity.SILENT, compare)
     if trouble.faults and trouble.faults.n_v >= trouble.faults.system.p:
-        yield _free_count("as-many-faults-as-outputs", "noise is taken for faults, or faults for noise", trouble.faults)
+        yield _free_count("as-many-faults-as-outputs", trouble.faults, "noise is taken for faults, or faults for noise")
     if trouble.faults and trouble.faults.n_v == 0:
-        yield _free_count("fault-dimension-unexciting", "no fault is taken for one that does not excite, or the reverse", trouble.faults)
-
-
-def _measured(compare: Compare, function: Function) -> Iterator[Measurement]:
-    yield from compare(function)
+        yield _free_count("fault-dimension-unexciting", trouble.faults, "no fault is taken for one that does not excite, or the reverse")
 
 
 def questions(trouble: Trouble) -> Iterator[tuple[str, str, str, str, Compare]]:
@@ -73,13 +69,9 @@ def questions(trouble: Trouble) -> Iterator[tuple[str, str, str, str, Compare]]:
         yield "exact-recovery", "identify", "proposition-1", RECOVERY, partial(_model_off, model)
 
 
-def _free_count(slug: str, effect: str, vector: FaultVector) -> Check:
+def _free_count(slug: str, vector: FaultVector, effect: str) -> Check:
     """The count is free: as many faults as outputs look like noise in every output, and none like one that does not excite."""
-
-    def measure(function: Function) -> Iterator[Measurement]:
-        yield from count_off(vector, function)
-
-    return Check(slug, "fault_dimension", vector.slug, "proposition-3", effect, Severity.SOMETIMES, measure, Demand.FREE)
+    return free_count(slug, vector.slug, effect, "n_v", vector.r, vector.n_v)
 
 
 def _model_off(vector: IdentificationVector, function: Function) -> Iterator[Measurement]:

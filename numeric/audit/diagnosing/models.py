@@ -15,6 +15,7 @@ import numpy as np
 
 from ....base.arrays import Array
 from ...method.model.models import StateSpaceModel
+from ...study.conditioning import regressor_of
 from .. import reference
 from ..records import Function
 from .suspicions import SAME, Suspicion, answer_changed, asked_otherwise, misled_by_sizes, seen, sizes, to_one
@@ -29,26 +30,18 @@ def fitted(answer: Any, y: Array, u: Array, feedthrough_alone: bool) -> tuple[Ar
     n, n_u, p = len(A), u.shape[1], len(C)
     if len(y) > LONGEST:
         raise ValueError("the record is too long to fit matrices to")
-    columns = n + (0 if feedthrough_alone else n * n_u)
-    states, known, rows = np.zeros((n, columns)), np.zeros(n), []
-    states[:, :n] = np.eye(n)
-    targets = np.array(y, dtype=float)
-    for k, inputs in enumerate(u):
-        rows.append(np.hstack([C @ states, np.kron(inputs, np.eye(p))]))
-        if feedthrough_alone:
-            targets[k] -= C @ known
-            known = A @ known + B @ inputs
-        states = A @ states
-        if not feedthrough_alone:
-            states[:, n:] += np.kron(inputs, np.eye(n))
-    weights = np.repeat(1 / sizes(y)[None], len(y), axis=0).ravel()
-    regressors = np.vstack(rows) * weights[:, None]
+    model = StateSpaceModel(A, B, C, np.zeros((p, n_u)))
+    regressors, targets = regressor_of(model, u)[0], y
+    if feedthrough_alone:
+        regressors, targets = np.delete(regressors, slice(n, n + n * n_u), axis=1), y - model.simulate(u)
+    weights = np.tile(1 / sizes(y), len(y))
+    regressors = regressors * weights[:, None]
     scale = np.linalg.norm(regressors, axis=0)
     scale[scale == 0] = 1
     found = np.linalg.lstsq(regressors / scale, targets.ravel() * weights, rcond=None)[0] / scale
     if not feedthrough_alone:
-        B = found[n:columns].reshape(n_u, n).T
-    return A, B, C, found[columns:].reshape(n_u, p).T
+        B = found[n : n + n * n_u].reshape(n_u, n).T
+    return A, B, C, found[len(found) - p * n_u :].reshape(p, n_u)
 
 
 def _arrays(answer: Any) -> tuple[Array, Array, Array, Array]:

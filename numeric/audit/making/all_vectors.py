@@ -45,7 +45,7 @@ from ..vectors.trouble import SEED
 from ..vectors.trouble import document as trouble_document
 from .fault_records import fault_vectors, noisy_vectors, unexciting_vectors
 from .model_bounds import bounded, model_bounds
-from .planting import drawn, stable, upward
+from .planting import digits, stable, upward
 from .trouble_vectors import drawn_troubles
 
 # -- identification -----------------------------------------------------------------------------------------------------------------
@@ -61,8 +61,8 @@ def identification_vectors() -> list[IdentificationVector]:
 
 def _identification(n: int, n_u: int, p: int, feedthrough: bool, moving: bool, smoothing: int) -> IdentificationVector:
     rng = Random(f"{n} {n_u} {p}")
-    A, B, C, D = stable(rng, n), drawn(rng, n, n_u, 3), drawn(rng, p, n, 5), drawn(rng, p, n_u, 7)
-    u = drawn(rng, 80 + smoothing, n_u, 3)
+    A, B, C, D = stable(rng, n), digits(rng, n, n_u, 3), digits(rng, p, n, 5), digits(rng, p, n_u, 7)
+    u = digits(rng, 80 + smoothing, n_u, 3)
     for _ in range(smoothing):
         u = u.rows(range(u.nrows - 1)) + u.rows(range(1, u.nrows))
     x0 = matrix([[20 + rng.randint(-9, 9)] for _ in range(n)], 1)
@@ -77,8 +77,8 @@ def _long_window() -> IdentificationVector:
     rng = Random("long window")
     halves = [[1, 1, 0, 1], [-1, 0, 1, 0], [0, 0, 1, 1], [0, 0, 0, -1]]
     A = matrix([[Fraction(entry, 2) for entry in row] for row in halves], 4)
-    B, C, D = drawn(rng, 4, 2, 1), drawn(rng, 3, 4, 1), drawn(rng, 3, 2, 1)
-    u, x0 = drawn(rng, 380, 2, 1), drawn(rng, 4, 1, 1)
+    B, C, D = digits(rng, 4, 2, 1), digits(rng, 3, 4, 1), digits(rng, 3, 2, 1)
+    u, x0 = digits(rng, 380, 2, 1), digits(rng, 4, 1, 1)
     return _bounded(IdentificationVector("n4-u2-p3-s20", A, B, C, D, x0, u, 20, {}))
 
 

@@ -32,7 +32,7 @@ from faultspace.exact.system.systems import ResidualSystem
 from faultspace.exact.system.windows import observability_matrix, window_matrix
 
 from ...method.model.compression import EPS
-from ...method.model.models import StateSpaceModel
+from ...method.model.models import StateSpaceModel, lower_toeplitz
 from ...method.model.residuals import residual
 from ...method.signal.reconstruction import reconstruct_fault
 from ...method.space.by_ranks import noise_free_fault_space
@@ -54,7 +54,7 @@ from ..vectors.fault_vectors import (
 )
 from ..vectors.rationals import floats, fractions, matrix, scaled
 from ..vectors.recipe_vectors import NoisyVector
-from .planting import TELLING, drawn, stable, upward
+from .planting import TELLING, digits, stable, upward
 
 ABOVE = 10.0  # how far above the noise's norm the least singular value must be, both certified
 
@@ -64,7 +64,7 @@ def fault_systems() -> list[tuple[str, ResidualSystem]]:
     rng = Random("faults")
 
     def plain(n: int, m: int, p: int) -> ResidualSystem:
-        return ResidualSystem(stable(rng, n), drawn(rng, n, m, 3), drawn(rng, p, n, 5), drawn(rng, p, m, 7))
+        return ResidualSystem(stable(rng, n), digits(rng, n, m, 3), digits(rng, p, n, 5), digits(rng, p, m, 7))
 
     two = plain(3, 2, 3)
     three = plain(3, 1, 3)
@@ -114,7 +114,7 @@ def fault_vectors() -> list[FaultVector]:
 
 def _faults(slug: str, system: ResidualSystem) -> FaultVector:
     rng = Random(slug)
-    x0, v = drawn(rng, system.n, 1, 1), drawn(rng, 2 * HALF, system.m, 3)
+    x0, v = digits(rng, system.n, 1, 1), digits(rng, 2 * HALF, system.m, 3)
     whole = _seen(slug, AS_GIVEN, system, x0, v, None)
     views = {view.slug: _seen(slug, view, view.system(system), *view.record(system, x0, v), whole) for view in VIEWS}
     return FaultVector(**{name: getattr(whole, name) for name in FaultVector.__dataclass_fields__ if name != "views"}, views=views)
@@ -190,11 +190,7 @@ def leading_signal_bound(r: Matrix, system: ResidualSystem, x0: Matrix, trusted:
     A, F, C, G = (floats(M) for M in (system.A, system.F, system.C, system.G))
     data, N, m = floats(r), r.nrows, system.m
     model = StateSpaceModel(A, F, C, G)
-    pulse = np.asarray(model.markov(N))
-    T = np.zeros((N, system.p, N, m))
-    for k in range(N):
-        T[k:, :, k] = pulse[: N - k]
-    matrix_of = T.reshape(N * system.p, N * m)
+    matrix_of = lower_toeplitz(model.markov(N))
     free = np.asarray(model.simulate(np.zeros((N, m)), floats(x0).ravel()))
     inverse = np.linalg.pinv(matrix_of, rcond=EPS)
     v = (inverse @ (data - free).ravel()).reshape(N, m)
@@ -231,7 +227,7 @@ def unexciting_vectors() -> list[UnexcitingVector]:
     rng = Random("unexciting")
     one, two, N = systems["one-fault"], systems["two-faults"], 2 * HALF
     signals = unexciting_inputs(N)
-    single = fractions(drawn(rng, N, 1, 3))
+    single = fractions(digits(rng, N, 1, 3))
     together = matrix([[x, 2 * x] for (x,) in single], 2)
     cases = [
         ("constant-fault", one, signals["constant"], 0),
@@ -243,7 +239,7 @@ def unexciting_vectors() -> list[UnexcitingVector]:
 
 def _unexciting(slug: str, system: ResidualSystem, v: Matrix, visible: int) -> UnexcitingVector:
     windows = system.n + 5
-    x0 = drawn(Random(slug), system.n, 1, 1)
+    x0 = digits(Random(slug), system.n, 1, 1)
     r = simulate(system, x0, v).residuals
     ranks = tuple(rank(hankel(r, s)) for s in range(1, windows + 1))
     if {ranks[-1] - ranks[-2], ranks[-2] - ranks[-3]} != {visible}:

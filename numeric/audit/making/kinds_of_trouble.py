@@ -55,6 +55,7 @@ FAULTS = (STRUCTURE, RESIDUAL, RANKS, COUNT, SPACE, SIGNAL)
 RECORDS = (RESIDUAL, RANKS, COUNT, SPACE, SIGNAL)
 ALL = (*FAULTS, MODEL)
 Polynomial = list[Fraction]
+Generator = Callable[[Random], ResidualSystem]
 
 
 @dataclass(frozen=True)
@@ -64,7 +65,7 @@ class Kind:
 
     slug: str
     what: str
-    drawn: Callable[[Random], ResidualSystem]
+    drawn: Generator
     asks: tuple[str, ...] = ALL
     moves: Callable[[Random, int, int], Matrix] = digits
 
@@ -79,7 +80,7 @@ def _stable(rng: Random, degree: int) -> Polynomial:
     return times(*(factor(a) for a in rng.sample(HALVES, degree)))
 
 
-def _with_zeros(*numerators: Callable[[Random], Polynomial], excess: int = 0, n: int = 2, p: int = 3) -> Callable[[Random], ResidualSystem]:
+def _with_zeros(*numerators: Callable[[Random], Polynomial], excess: int = 0, n: int = 2, p: int = 3) -> Generator:
     """The generator of p outputs that see a channel for each numerator through a tall system of n states without zeros."""
 
     def generate(rng: Random) -> ResidualSystem:
@@ -156,7 +157,7 @@ def _unobservable(rng: Random) -> ResidualSystem:
     return hidden(rng, ResidualSystem(both.A, stacked(seen.F, unseen.F), both.C, seen.G))
 
 
-def _square_of(*numerators: Callable[[Random], Polynomial]) -> Callable[[Random], ResidualSystem]:
+def _square_of(*numerators: Callable[[Random], Polynomial]) -> Generator:
     """The generator of the same channels without a tall system behind them: as many outputs as faults, mixed."""
 
     def generate(rng: Random) -> ResidualSystem:
@@ -178,7 +179,7 @@ def _deficient(rng: Random) -> ResidualSystem:
 # -- poles ------------------------------------------------------------------------------------------------------------------------------
 
 
-def _with_poles(*denominators: Polynomial | Callable[[Random], Polynomial], n: int = 2, p: int = 3) -> Callable[[Random], ResidualSystem]:
+def _with_poles(*denominators: Polynomial | Callable[[Random], Polynomial], n: int = 2, p: int = 3) -> Generator:
     """The generator with a channel for each denominator, whose numerator is of the same degree and has zeros well inside."""
 
     def generate(rng: Random) -> ResidualSystem:
@@ -203,11 +204,8 @@ def _nearly_unobservable(rng: Random) -> ResidualSystem:
 # -- sizes ------------------------------------------------------------------------------------------------------------------------------
 
 
-def _plain(n: int, m: int, p: int) -> Callable[[Random], ResidualSystem]:
-    def generate(rng: Random) -> ResidualSystem:
-        return hidden(rng, tall(rng, n, m, p))
-
-    return generate
+def _plain(n: int, m: int, p: int) -> Generator:
+    return lambda rng: hidden(rng, tall(rng, n, m, p))
 
 
 def _pure_noise(rng: Random) -> ResidualSystem:
@@ -217,7 +215,7 @@ def _pure_noise(rng: Random) -> ResidualSystem:
     return ResidualSystem(A, F, C, G)
 
 
-def _direct(size: Fraction) -> Callable[[Random], ResidualSystem]:
+def _direct(size: Fraction) -> Generator:
     """The first column of G is of this size."""
 
     def generate(rng: Random) -> ResidualSystem:
@@ -227,23 +225,19 @@ def _direct(size: Fraction) -> Callable[[Random], ResidualSystem]:
     return generate
 
 
-def _delays(*samples: int) -> Callable[[Random], ResidualSystem]:
+def _delays(*samples: int) -> Generator:
     """Each fault comes so many samples late."""
-
-    def generate(rng: Random) -> ResidualSystem:
-        return hidden(rng, series(beside(*(delay(one) for one in samples)), tall_without_zeros(rng, 2, len(samples), len(samples) + 1)))
-
-    return generate
+    bank, m = beside(*(delay(one) for one in samples)), len(samples)
+    return lambda rng: hidden(rng, series(bank, tall_without_zeros(rng, 2, m, m + 1)))
 
 
-def _chains(*lengths: int) -> Callable[[Random], ResidualSystem]:
+def _chains(*lengths: int) -> Generator:
     """An output for each chain of states, which hand on what comes from the last to the first: long observability indices.
 
     One fault acts on the last state of each chain, and reaches the first output directly."""
 
     def generate(rng: Random) -> ResidualSystem:
-        parts = [channel([Fraction(1)], times(*(factor(rng.choice(HALVES)) for _ in range(one)))) for one in lengths]
-        bank = beside(*parts)
+        bank = beside(*(channel([Fraction(1)], times(*(factor(rng.choice(HALVES)) for _ in range(one)))) for one in lengths))
         F = [[sum(row)] for row in fractions(bank.F)]
         G = [[Fraction(int(i == 0))] for i in range(len(lengths))]
         return ResidualSystem(bank.A, matrix(F, 1), bank.C, matrix(G, 1))
@@ -295,15 +289,9 @@ def _orders_one_and_three(rng: Random) -> ResidualSystem:
     return hidden(rng, ResidualSystem(bank.A, bank.F @ mixed, mixed @ bank.C, mixed @ bank.G))
 
 
-def _resized(
-    drawn: Callable[[Random], ResidualSystem], faults: Sequence[int], outputs: Sequence[int]
-) -> Callable[[Random], ResidualSystem]:
+def _resized(drawn: Generator, faults: Sequence[int], outputs: Sequence[int]) -> Generator:
     """The generator of the same systems in other units: fault j 2^faults[j] times as large, output i 2^outputs[i] times."""
-
-    def generate(rng: Random) -> ResidualSystem:
-        return resized(drawn(rng), [Fraction(2) ** one for one in faults], [Fraction(2) ** one for one in outputs])
-
-    return generate
+    return lambda rng: resized(drawn(rng), [Fraction(2) ** one for one in faults], [Fraction(2) ** one for one in outputs])
 
 
 def _silent_mode(rng: Random) -> ResidualSystem:

@@ -15,7 +15,7 @@ of the channels and no others; it is observable where the tall one is. All entri
     resized     the same system with its faults and outputs in other units
     digits, late, spiked   fault signals: digits at random; after a long silence; with one sample far larger than the others
     factor      z - a;   pair   z^2 - 2 re z + (re^2 + im^2)
-    drawn, stable   random rational matrices
+    stable      a random rational matrix
     upward      a bound rounded up, with two digits;   TELLING   how large a bound may be, beside its quantity
 """
 
@@ -23,15 +23,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import reduce
 from random import Random
 
 import numpy as np
 
-from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.algebra.fields import QQ
+from faultspace.exact.algebra.matrices import Matrix, stacked
+from faultspace.exact.algebra.matrices import beside as columns_beside
 from faultspace.exact.structure.record import analyze
 from faultspace.exact.system.systems import ResidualSystem
 
-from ..vectors.rationals import fractions, matrix
+from ..vectors.rationals import fractions, matrix, scaled
 
 Polynomial = Sequence[Fraction]
 HALVES = (Fraction(1, 2), Fraction(-1, 2), Fraction(1, 4), Fraction(-1, 4), Fraction(3, 4), Fraction(-3, 4))
@@ -55,7 +58,6 @@ def pair(real: Fraction | int, imaginary: Fraction | int) -> list[Fraction]:
 
 def times(*factors: Polynomial) -> list[Fraction]:
     """Return the product of the polynomials; 1 where there are none."""
-
     result = [Fraction(1)]
     for one in factors:
         product = [Fraction(0)] * (len(result) + len(one) - 1)
@@ -87,27 +89,20 @@ def delay(samples: int) -> ResidualSystem:
 def beside(*parts: ResidualSystem) -> ResidualSystem:
     """Return the systems side by side: states, inputs and outputs one after the other."""
 
-    def diagonal(name: str) -> Matrix:
-        blocks = [getattr(one, name) for one in parts]
-        width = sum(one.ncols for one in blocks)
-        rows, before = [], 0
-        for one in blocks:
-            rows += [[*([0] * before), *row, *([0] * (width - before - one.ncols))] for row in fractions(one)]
-            before += one.ncols
-        return matrix(rows, width)
+    return ResidualSystem(*(reduce(_diagonal, (getattr(one, name) for one in parts)) for name in "AFCG"))
 
-    return ResidualSystem(*(diagonal(name) for name in "AFCG"))
+
+def _diagonal(one: Matrix, other: Matrix) -> Matrix:
+    above, below = Matrix.zero(one.field, one.nrows, other.ncols), Matrix.zero(one.field, other.nrows, one.ncols)
+    return columns_beside(stacked(one, below), stacked(above, other))
 
 
 def series(first: ResidualSystem, second: ResidualSystem) -> ResidualSystem:
     """Return the system that reads the outputs of `first` as its faults; states of `first` come first."""
-    through, outputs = second.F @ first.C, second.G @ first.C
-    A = [[*row, *([0] * second.n)] for row in fractions(first.A)]
-    A += [[*left, *right] for left, right in zip(fractions(through), fractions(second.A), strict=True)]
-    F = fractions(first.F) + fractions(second.F @ first.G)
-    C = [[*left, *right] for left, right in zip(fractions(outputs), fractions(second.C), strict=True)]
-    n = first.n + second.n
-    return ResidualSystem(matrix(A, n), matrix(F, first.m), matrix(C, n), second.G @ first.G)
+    held = Matrix.zero(first.A.field, first.n, second.n)
+    A = columns_beside(stacked(first.A, second.F @ first.C), stacked(held, second.A))
+    F, C = stacked(first.F, second.F @ first.G), columns_beside(second.G @ first.C, second.C)
+    return ResidualSystem(A, F, C, second.G @ first.G)
 
 
 def tall(rng: Random, n: int, m: int, p: int) -> ResidualSystem:
@@ -141,10 +136,9 @@ def hidden(rng: Random, system: ResidualSystem) -> ResidualSystem:
 
 def _unimodular(rng: Random, size: int) -> tuple[Matrix, Matrix]:
     """Return an integer matrix of determinant +-1, a shear for each row at most, and its inverse."""
-    one = matrix([[int(i == j) for j in range(size)] for i in range(size)], size)
     order = list(range(size))
     rng.shuffle(order)
-    there, back = one.rows(order), one.columns(order)
+    there = Matrix.identity(QQ, size).rows(order)
     back = there.transposed()
     for i in range(1, size):
         j, sign = rng.randrange(i), rng.choice((-1, 1))
@@ -156,15 +150,13 @@ def _unimodular(rng: Random, size: int) -> tuple[Matrix, Matrix]:
 
 def resized(system: ResidualSystem, faults: Sequence[Fraction], outputs: Sequence[Fraction]) -> ResidualSystem:
     """Return the system with column j of F and G multiplied by faults[j], and row i of C and G by outputs[i]."""
-    F = [[x * size for x, size in zip(row, faults, strict=True)] for row in fractions(system.F)]
-    C = [[x * size for x in row] for size, row in zip(outputs, fractions(system.C), strict=True)]
-    G = [[x * size * own for x, own in zip(row, faults, strict=True)] for size, row in zip(outputs, fractions(system.G), strict=True)]
-    return ResidualSystem(system.A, matrix(F, system.m), matrix(C, system.n), matrix(G, system.m))
+    C, G = (scaled(M.transposed(), outputs).transposed() for M in (system.C, system.G))
+    return ResidualSystem(system.A, scaled(system.F, faults), C, scaled(G, faults))
 
 
-def digits(rng: Random, height: int, width: int) -> Matrix:
-    """Return digits, none of them zero."""
-    values = [d for d in range(-9, 10) if d]
+def digits(rng: Random, height: int, width: int, denominator: int = 1) -> Matrix:
+    """Return digits over a denominator, none of them zero."""
+    values = [Fraction(d, denominator) for d in range(-9, 10) if d]
     return matrix([[rng.choice(values) for _ in range(width)] for _ in range(height)], width)
 
 
@@ -191,12 +183,6 @@ def in_unlike_units(rng: Random, height: int, width: int) -> Matrix:
 
 
 TELLING = 1e-2  # of the quantity's size: a bound above it asks for nothing
-
-
-def drawn(rng: Random, height: int, width: int, denominator: int) -> Matrix:
-    """Return digits over a denominator, none of them zero."""
-    digits = [d for d in range(-9, 10) if d]
-    return matrix([[Fraction(rng.choice(digits), denominator) for _ in range(width)] for _ in range(height)], width)
 
 
 def stable(rng: Random, n: int) -> Matrix:

@@ -27,28 +27,11 @@ from faultspace.exact.system.systems import ResidualSystem
 
 from ....base.arrays import Array
 from .fault_vectors import FaultVector, UnexcitingVector
-from .rationals import floats, fractions, matrix, residual_system, scaled, signs
+from .rationals import matrix, residual_system
 from .recipe_vectors import ConsistencyVector, NoisyVector
 
 FORMAT = "faultspace-audit-vectors/1"
 POINTS = (1, -1, 2)  # where transfer functions are compared: floats, and no pole of a stable model
-
-__all__ = [
-    "KINDS",
-    "POINTS",
-    "ConsistencyVector",
-    "FaultVector",
-    "IdentificationVector",
-    "NoisyVector",
-    "StructureVector",
-    "UnexcitingVector",
-    "floats",
-    "fractions",
-    "matrix",
-    "scaled",
-    "shipped",
-    "signs",
-]
 
 
 @dataclass(frozen=True, eq=False)

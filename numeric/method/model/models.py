@@ -240,9 +240,8 @@ def lower_toeplitz(markov: Array) -> Array:
     """Return the lower block-triangular Toeplitz matrix T_s (s p, s n_u) of s Markov parameters."""
     count, p, n_u = markov.shape
     blocks = np.zeros((count, p, count, n_u))
-    for lag in range(count):
-        for row in range(lag, count):
-            blocks[row, :, row - lag, :] = markov[lag]
+    for column in range(count):
+        blocks[column:, :, column] = markov[: count - column]
     return blocks.reshape(count * p, count * n_u)
 
 

@@ -1,9 +1,4 @@
-"""This is what an identification by MOESP returns: the model with the account of its order, or the error that no order could be chosen.
-
-MoespModel       the model, how it was found and how far to trust it
-Gap              the gap in the singular values at the order taken
-OrderUndecided   the error where the singular values have no gap to trust
-"""
+"""This is what an identification by MOESP returns: the model with the account of its order, or the error that no order could be chosen."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -14,7 +9,7 @@ import numpy as np
 from ....base.arrays import Array
 from ....base.errors import InvalidData
 from ....base.sheets import Shown, counted
-from ...data.plain import plain
+from ...data.plain import by_name, plain
 from ..plotting import plot_singular_values
 from .models import Identified, StateSpaceModel
 
@@ -101,17 +96,8 @@ class MoespModel(Identified, Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict: that of the model, how it was found and how far it can be trusted."""
-        return self.model.to_json() | {
-            "order": self.order,
-            "singular_values": plain(self.singular_values),
-            "order_gap": plain(self.gap.ratio),
-            "order_gap_clean": self.gap.clean,
-            "x0": plain(self.x0),
-            "residual_covariance": plain(self.residual_covariance),
-            "condition_numbers": {name: plain(value) for name, value in self.condition_numbers.items()},
-            "route": self.route,
-            "warnings": list(self.warnings),
-        }
+        found = by_name(self, "order", "singular_values", "x0", "residual_covariance", "condition_numbers", "route", "warnings")
+        return self.model.to_json() | found | {"order_gap": plain(self.gap.ratio), "order_gap_clean": self.gap.clean}
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the singular values and the order into the matplotlib axes `ax`, new ones where None are given, and return them. Raises

@@ -3,8 +3,6 @@
 The factor of [Uf; Up; Yp; Yf] by sequential QR; singular values of Yf along [Up; Yp] with Uf projected out, not scaled, as SLICOT's
 IB01AD prints them. Under a coloured additive disturbance or fault it can stay biased at the true order, where past inputs alone do
 not for a white input [VV07, ch. 9]; with white measurement noise its estimates vary less.
-
-po_moesp        from y and u to the same record as `pi_moesp`
 """
 
 from __future__ import annotations

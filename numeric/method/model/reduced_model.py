@@ -29,7 +29,7 @@ from ....base.arrays import Array
 from ....base.chi_squared import chi_squared_tail
 from ....base.errors import InvalidData
 from ....base.sheets import Shown, counted
-from ...data.plain import plain
+from ...data.plain import by_name, plain
 from .arx import Arx, adjoint, fitted_arx, input_spectrum
 from .arx_windows import ArxWindows
 from .compression import EPS
@@ -115,17 +115,8 @@ class ReducedModel(Identified, Shown):
         """Return a JSON-ready dict: that of the model, how sure it is, and what it rests on; null stands for what there is not."""
         arx = {"lags": self.arx.order, "windows": self.arx.rows, "A": plain(self.arx.outputs), "B": plain(self.arx.inputs)}
         uncertainty = {name: value for name, value in self.uncertainty.to_json().items() if name != "model"}
-        return self.model.to_json() | {
-            "order": self.order,
-            "cost": plain(self.cost),
-            "innovation_covariance": plain(self.innovation_covariance),
-            "offsets": [plain(offset) for offset in self.offsets],
-            "initial_states": [plain(state) for state in self.initial_states],
-            "arx": arx,
-            "uncertainty": uncertainty,
-            "orders": None if self.orders is None else self.orders.to_json(),
-            "notes": list(self.notes),
-        }
+        found = by_name(self, "order", "cost", "innovation_covariance", "offsets", "initial_states", "orders", "notes")
+        return self.model.to_json() | found | {"arx": arx, "uncertainty": uncertainty}
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the poles with the regions that hold them with probability 0.95, as `uncertainty.plot` does, into the matplotlib axes `ax`,

@@ -30,7 +30,7 @@ from ....base.arrays import Array
 from ....base.errors import InvalidData
 from ....base.sheets import Shown, counted
 from ....base.threads import one_thread
-from ...data.plain import plain
+from ...data.plain import by_name
 from ...data.records import SampleStore, stored
 from ...data.validation import experiment
 from ..plotting import plot_residual
@@ -89,17 +89,8 @@ class ResidualSignal(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict of everything but the samples, which `r` has."""
-        return {
-            "samples": len(self.store),
-            "p": self.store.width,
-            "x0": plain(self.x0),
-            "fitted": self.fitted,
-            "covariance": plain(self.covariance),
-            "x0_covariance": plain(self.x0_covariance),
-            "observed": self.observed,
-            "backward": self.backward,
-            "notes": list(self.notes),
-        }
+        found = by_name(self, "x0", "fitted", "covariance", "x0_covariance", "observed", "backward", "notes")
+        return {"samples": len(self.store), "p": self.store.width} | found
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the residual into the matplotlib axes `ax`, new ones where None are given, and return them. Raises ImportError without

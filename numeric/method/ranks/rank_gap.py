@@ -41,7 +41,7 @@ from ....base.arrays import Array
 from ....base.errors import InvalidData
 from ....base.sheets import Shown, counted, decibels
 from ....base.threads import one_thread
-from ...data.plain import plain
+from ...data.plain import by_name
 from ...data.records import Stored, in_memory
 from ...data.validation import positive, signal
 from ..plotting import plot_levels, plot_window_ranks
@@ -110,18 +110,8 @@ class FaultDimension(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict: the answer, its reason, and what belongs to each window."""
-        levels = [{"outputs": level.outputs, "least": plain(level.least), "largest": plain(level.largest)} for level in self.levels]
-        return {
-            "n_v": self.n_v,
-            "reason": self.reason,
-            "regime": self.regime,
-            "windows": list(self.windows),
-            "ranks": list(self.ranks),
-            "gaps": list(self.gaps),
-            "margins": plain(self.margins),
-            "thresholds": plain(self.thresholds),
-            "levels": levels,
-        }
+        names = ("n_v", "reason", "regime", "windows", "ranks", "gaps", "margins", "thresholds")
+        return by_name(self, *names) | {"levels": [by_name(level, "outputs", "least", "largest") for level in self.levels]}
 
     def plot(self, ax: Any = None) -> Any:
         """Draw what the answer rests on into the matplotlib axes `ax`, new ones where None are given, and return them: the singular values

@@ -4,9 +4,6 @@ Of all noise that the rows admit, N_y w = N [y; u], the least is taken away from
 a system of these rows could have made without noise, whatever its faults. New noise of the estimated spectrum and shares added, it is
 what the record could have been, and every statistic can be asked how it is distributed where the rows are laws [ET93].
 
-    least_noise     w (N, p) of least power with N_y w = N [y; u], each channel weighted by its share
-    redrawn         records y* = y - w + new noise, one after the other
-
 The mean of a likelihood ratio over such records, beside the degrees of freedom that it should have, is what it is divided by to have the
 law that is stated [B37]; so a few records do, where quantiles would ask for hundreds. What is left of y holds the faults and the noise in
 their directions, so that a fault fainter than the noise is not as faint in these records.

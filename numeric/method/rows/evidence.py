@@ -30,7 +30,7 @@ from ..model.reduction_starts import realisations
 from ..model.residuals import residual
 from ..model.weighted_reduction import Reduction, circle, descend, spectral_radius
 from ..space.tapered_moments import BANDS, pooled_moments
-from .joint import JointMoments, joint_moments_experiments
+from .joint import JointMoments, joint_moments
 from .remainder import Remainder, as_signals
 
 # Degrees beyond the order by which flatness is seen: one more could still be explained by a single root of the colour of a fault.
@@ -58,7 +58,7 @@ class Evidence:
     @cached_property
     def data(self) -> JointMoments:
         """The moments for rows of degree order + EXTRA, or as much of it as the record is long for."""
-        return joint_moments_experiments(self.experiments, self.order + max(1, min(EXTRA, self.longest - self.order)), self.bands)
+        return joint_moments(self.experiments, self.order + max(1, min(EXTRA, self.longest - self.order)), self.bands)
 
     @property
     def samples(self) -> int:
@@ -84,7 +84,7 @@ class Evidence:
     @cached_property
     def single(self) -> JointMoments:
         """The moments for a single row, of degree order + LONG or as much of it as the record is long for."""
-        return joint_moments_experiments(self.experiments, self.order + max(1, min(LONG, self.longest - self.order)), self.bands)
+        return joint_moments(self.experiments, self.order + max(1, min(LONG, self.longest - self.order)), self.bands)
 
     @cached_property
     def arx(self) -> Arx | None:

@@ -32,6 +32,7 @@ from numpy.typing import NDArray
 
 from ....base.arrays import Array
 from ..model.arx import Arx, adjoint, polynomial
+from ..model.feedback import one_step_errors
 from ..space.basis import KernelBasis
 from ..space.tapered_moments import pooled_moments
 from .joint import JointMoments
@@ -64,7 +65,7 @@ def even_moments(records: Sequence[tuple[Array, Array]], data: JointMoments, fit
 
 def _inverse(records: Sequence[tuple[Array, Array]], data: JointMoments, arx: Arx) -> ComplexArray:
     """Return Phi^-1 (bands, p, p), of y - G u in the units of the moments."""
-    errors = [_errors(y / data.scale[: data.p], u / data.scale[data.p :], arx) for y, u in records]
+    errors = [one_step_errors(y / data.scale[: data.p], u / data.scale[data.p :], arx, arx.order) for y, u in records]
     moments = pooled_moments(errors, 0, len(data.moments.angles))
     rest = as_signals(moments.moments / np.maximum(moments.weights, TINY)[:, None, None], moments)
     covariances = np.empty_like(rest.powers)
@@ -76,10 +77,3 @@ def _inverse(records: Sequence[tuple[Array, Array]], data: JointMoments, arx: Ar
     nearest = np.rint(np.interp(data.moments.angles, rest.angles, np.arange(len(rest.angles)))).astype(int)
     filters = polynomial(arx.outputs, data.moments.angles)
     return adjoint(filters) @ np.linalg.solve(covariances[nearest], filters)
-
-
-def _errors(y: Array, u: Array, arx: Arx) -> Array:
-    """Return what the model does not foretell of y (N, p), from its lags on."""
-    h, N = arx.order, len(y)
-    terms = (y[h - i : N - i] @ arx.outputs[i].T - u[h - i : N - i] @ arx.inputs[i].T for i in range(h + 1))
-    return np.asarray(sum(terms, np.zeros((N - h, y.shape[1]))))

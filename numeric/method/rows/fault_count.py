@@ -45,7 +45,7 @@ from ....base.arrays import Array
 from ....base.errors import InvalidData
 from ....base.sheets import Shown, counted, decibels
 from ....base.threads import one_thread
-from ...data.plain import plain
+from ...data.plain import by_name
 from ...data.records import Record
 from ...data.validation import constant_channels, noise_deviations, positive, signals
 from ..model.reduced_model import ReducedModel
@@ -118,13 +118,7 @@ class FaultCount(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict: the answer, its reason and every test made; null stands for what there is not."""
-        return {
-            "n_v": self.n_v,
-            "possible": list(self.possible),
-            "reason": self.reason,
-            "tests": [laws.to_json() for laws in self.tests],
-            "noise_power": plain(self.noise_power),
-        }
+        return by_name(self, "n_v", "possible", "reason", "tests", "noise_power")
 
 
 @one_thread()

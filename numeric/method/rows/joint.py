@@ -10,7 +10,7 @@ minimal; they are fitted by the likelihood of `numeric/method/space/basis.py`,
 S the cross-spectral moments of [y; u]. Without noise the rows are exactly those of the system, up to unimodular combinations.
 
     JointMoments    the moments of [y; u], each channel in units of its deviation: the only place where N enters
-    joint_moments   from y (N, p), u (N, n_u); joint_moments_experiments: from several experiments of the same system
+    joint_moments   from experiments of the same system
     lam             (p,) powers of the noise in the channels relative to phi, in the units of the moments: the `shares`
     affordable      whether moments of so many channels and degrees can be had
     even_split      degrees of k rows with a given sum, as equal as can be
@@ -75,29 +75,19 @@ class JointMoments:
         """Return the shares (p + n_u,) of all channels: these (p,) of the outputs, ones where they are None, and zeros of the inputs."""
         return np.concatenate([np.ones(self.p) if shares is None else shares, np.zeros(self.n_u)])
 
-    def in_units(self, rows: Sequence[Array]) -> list[Array]:
-        """Return rows (eta_i + 1, p + n_u) of the scaled channels as rows of y and u themselves."""
-        return [row / self.scale for row in rows]
 
-
-def joint_moments(y: ArrayLike, u: ArrayLike, degree: int, bands: int = BANDS) -> JointMoments:
-    """Return the moments of y (N, p) and u (N, n_u) for rows up to this degree, in so many bands or fewer.
-
-    Raises InvalidData for data that are no signals, for lengths that differ, and where N is less than 2 (p + n_u) (degree + 1) + degree.
-
-    >>> t = np.arange(400.0)
-    >>> joint_moments(np.sin(t), np.cos(3 * t), 2).p
-    1
-    """
-    return joint_moments_experiments([(y, u)], degree, bands)
-
-
-def joint_moments_experiments(experiments: Sequence[tuple[ArrayLike, ArrayLike]], degree: int, bands: int = BANDS) -> JointMoments:
-    """Return the moments of several experiments (y, u) of one system, each from its own initial state, weighted by their lengths.
+def joint_moments(experiments: Sequence[tuple[ArrayLike, ArrayLike]], degree: int, bands: int = BANDS) -> JointMoments:
+    """Return the moments of experiments (y, u) of one system, (N, p) and (N, n_u), each from its own initial state, weighted by their
+    lengths, for rows up to this degree, in so many bands or fewer.
 
     Of those about their means, N_i(1) times these is unknown to what the ends of the record make of it, and each window has a constant.
 
-    Raises InvalidData as `joint_moments`, of the shortest experiment, and for experiments with other numbers of channels.
+    Raises InvalidData for data that are no signals, for lengths that differ, and where N of the shortest is less than 2 (p + n_u)
+    (degree + 1) + degree, and for experiments with other numbers of channels.
+
+    >>> t = np.arange(400.0)
+    >>> joint_moments([(np.sin(t), np.cos(3 * t))], 2).p
+    1
     """
     records = [signals(y, u) for y, u in experiments]
     if len({(y.shape[1], u.shape[1]) for y, u in records}) != 1:

@@ -4,10 +4,6 @@ The rows take the noise to have one colour and, beside stated powers, nothing in
 turns them: along the direction in which there is most noise a law costs least, and a fault that excites little beside it is then placed by
 the noise. In outputs W y, W S W' = I for the covariance S of the healthy residual, what the rows take for granted holds as far as a
 covariance can tell. Fault columns are [f; W g] there, and a model has W C and W D, so that the space is that of y once it is turned back.
-
-    space_in_known_noise   the estimate, in the states of the model and the units of y
-    whitening              W
-    state_units            the units in which the states of two models were matched, for `isolate`
 """
 
 from __future__ import annotations

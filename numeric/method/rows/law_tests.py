@@ -36,8 +36,8 @@ import numpy as np
 
 from ....base.arrays import Array
 from ....base.chi_squared import chi_squared_tail
-from ...data.plain import plain
-from ..model.models import StateSpaceModel, observability_matrix
+from ...data.plain import by_name, plain
+from ..model.models import StateSpaceModel, lower_toeplitz, observability_matrix
 from ..space.basis import ROUGH, KernelBasis, colour_of, kernel_basis
 from .bootstrap import redrawn
 from .evidence import EXTRA, Evidence
@@ -109,15 +109,7 @@ class Laws:
         """Return a JSON-ready dict of the numbers that the answer rests on; the ratio of sphericity is null of a single row."""
         found = self.sphericity
         shape = None if found is None else {"log_likelihood_ratio": plain(found.nats), "expected": plain(found.expected)}
-        return {
-            "rows": self.count,
-            "holds": self.holds,
-            "probability": plain(self.probability),
-            "level": plain(self.level),
-            "gain": plain(self.gain),
-            "sphericity": shape,
-            "shares": plain(self.shares),
-        }
+        return {"rows": self.count, "sphericity": shape} | by_name(self, "holds", "probability", "level", "gain", "shares")
 
 
 @dataclass(frozen=True)
@@ -336,8 +328,7 @@ def model_within(model: StateSpaceModel, degrees: Sequence[int]) -> list[Array]:
 def _annihilators(model: StateSpaceModel, eta: int) -> Array:
     p, n_u, n = model.p, model.n_u, model.n
     left = np.linalg.svd(observability_matrix(model.A, model.C, eta + 1))[0][:, n:].T
-    markov = model.markov(eta + 1)
-    toeplitz = np.block([[markov[i - j] if i >= j else np.zeros((p, n_u)) for j in range(eta + 1)] for i in range(eta + 1)])
+    toeplitz = lower_toeplitz(model.markov(eta + 1))
     both = np.concatenate([left.reshape(-1, eta + 1, p), (-left @ toeplitz).reshape(-1, eta + 1, n_u)], axis=2)
     return np.asarray(np.linalg.qr(both.reshape(len(left), -1).T)[0].T, dtype=np.float64)
 

@@ -46,7 +46,7 @@ from .degree import SLACK, LeastDegree, freedom, least_degree, likelihood_ratio,
 from .evidence import arx_of, longest_degree
 from .faint_faults import even_moments
 from .from_above import from_above
-from .joint import ROUNDING, TURNS, JointMoments, compared_fits, course, even_split, joint_moments_experiments, refitted
+from .joint import ROUNDING, TURNS, JointMoments, compared_fits, course, even_split, joint_moments, refitted
 
 Experiments = Sequence[tuple[Array, Array]]
 # Frequencies of a segment in each band of the likelihoods that decide.
@@ -276,7 +276,7 @@ def pooled(records: Experiments, degree: int, bands: int = BANDS) -> JointMoment
     it lacks. Bands, at most so many, follow from the samples of all together, which a short one need not fill by itself. Raises
     InvalidData as `joint_moments`."""
     kept = [record for record in records if longest_degree(*record) >= degree]
-    return joint_moments_experiments(kept or [max(records, key=lambda record: len(record[0]))], degree, bands)
+    return joint_moments(kept or [max(records, key=lambda record: len(record[0]))], degree, bands)
 
 
 @dataclass(frozen=True, eq=False)
@@ -416,7 +416,7 @@ def _misfits(records: Experiments, found: Compared, chosen: LeastDegree, shares:
     made = [redrawn(y, u, data, fit, shares, draws, SEED + number) for number, (y, u) in enumerate(kept)]
     for outputs in zip(*made, strict=True):
         pairs = [(y, u) for y, (_, u) in zip(outputs, kept, strict=True)]
-        again = joint_moments_experiments(pairs, data.degree, len(data.moments.angles))
+        again = joint_moments(pairs, data.degree, len(data.moments.angles))
         moments = _even(pairs, again, highest, shares, n, None)
         steps = compared_fits(moments, fits[chosen.degree :], shares)
         ratios.append([likelihood_ratio(moments, steps[0], step) / freedom(moments, steps[0], step) for step in steps[1:]])

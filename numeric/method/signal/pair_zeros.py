@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....base.arrays import Array
+from ..model.models import StateSpaceModel, lower_toeplitz, observability_matrix
 
 TOLERANCE = 1e-9  # of the largest singular value, a million roundings: below it a rank is lost, an opinion as the head says
 
@@ -138,19 +139,10 @@ def output_nulling(A: Array, F: Array, C: Array, G: Array) -> Array:
 
 def _delay(A: Array, F: Array, C: Array, G: Array, *, state_known: bool) -> int | None:
     n, m = F.shape
-    p = C.shape[0]
-    parameters, state = [G], F
-    observability = [C]
-    for _ in range(n):
-        parameters.append(C @ state)
-        state = A @ state
-        observability.append(observability[-1] @ A)
+    p, markov = len(C), StateSpaceModel(A, F, C, G).markov(n + 1)
     for delay in range(n + 1):
-        toeplitz = np.zeros((p * (delay + 1), m * (delay + 1)))
-        for i in range(delay + 1):
-            for j in range(i + 1):
-                toeplitz[i * p : (i + 1) * p, j * m : (j + 1) * m] = parameters[i - j]
-        others = toeplitz[:, m:] if state_known else np.hstack([np.vstack(observability[: delay + 1]), toeplitz[:, m:]])
+        toeplitz = lower_toeplitz(markov[: delay + 1])
+        others = toeplitz[:, m:] if state_known else np.hstack([observability_matrix(A, C, delay + 1), toeplitz[:, m:]])
         # v(0) is determined iff its columns stay independent of each other and of all the rest.
         basis, values, _ = np.linalg.svd(others, full_matrices=False)
         basis = basis[:, values > TOLERANCE * max(1.0, _largest(values))]

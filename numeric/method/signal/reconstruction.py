@@ -23,7 +23,7 @@ from ....base.arrays import Array
 from ....base.progress import Progress, silent
 from ....base.sheets import Shown, counted
 from ....base.threads import one_thread
-from ...data.plain import plain
+from ...data.plain import by_name
 from ...data.records import SampleStore, Stored, stored
 from ...data.validation import signal
 from ..plotting import plot_stored_signal
@@ -103,18 +103,8 @@ class Reconstruction(Solution, Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict of everything but the samples, which `v` has; complex zeros are [real, imaginary]."""
-        return {
-            "samples": len(self.store),
-            "n_v": self.store.width,
-            "delay": self.delay,
-            "trusted": list(self.trusted),
-            "zeros": plain(self.zeros),
-            "left_invertible": self.left_invertible,
-            "misfit": plain(self.misfit),
-            "mismatch": plain(self.mismatch),
-            "reason": self.reason,
-            "x0": plain(self.x0),
-        }
+        found = by_name(self, "delay", "trusted", "zeros", "left_invertible", "misfit", "mismatch", "reason", "x0")
+        return {"samples": len(self.store), "n_v": self.store.width} | found
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the signal into the matplotlib axes `ax`, new ones where None are given, and return them; samples that are not determined
@@ -190,13 +180,12 @@ def reconstruct_fault(
 
     on_progress("reconstructing the fault signal", 0, N)
     not_zero(any(np.any(rows) for rows in store.pieces()))
-    if x0 is not None or N <= LONGEST:
-        found = _single(solve(0, N, x0), store, kept)
-    else:
-        begin = solve(0, LONGEST)
+    begin, margin = solve(0, N if x0 is not None else min(N, LONGEST), x0), 0
+    if len(begin.v) < N:
         margin = max(begin.trusted[0], LONGEST - begin.trusted[1], LEAST_MARGIN)
-        lost = begin.trusted[0] >= begin.trusted[1] or 4 * margin > LONGEST
-        found = _single(solve(0, N), store, kept) if lost else _joined(begin, solve, store, margin, kept, on_progress)
+        if begin.trusted[0] >= begin.trusted[1] or 4 * margin > LONGEST:
+            begin = solve(0, N)
+    found = _joined(begin, solve, store, margin, kept, on_progress)
     on_progress("reconstructing the fault signal", N, N)
     return found
 
@@ -232,13 +221,6 @@ def _joined(
     misfit = float(np.sqrt(left / whole)) if whole else 0.0
     known = {field.name: getattr(begin, field.name) for field in fields(Solution)} | {"trusted": trusted, "misfit": misfit}
     return Reconstruction(store=v, mismatch=mismatch, left=parts[0], whole=parts[1], **known)
-
-
-def _single(whole: Stretch, r: SampleStore, within: tuple[int, int]) -> Reconstruction:
-    given = r.read(0, len(whole.v))
-    parts = _squares(given - whole.simulated, given, 0, within)
-    known = {field.name: getattr(whole, field.name) for field in fields(Solution)}
-    return Reconstruction(store=stored(whole.v), mismatch=0.0, left=parts[0], whole=parts[1], **known)
 
 
 def _squares(error: Array, given: Array, start: int, within: tuple[int, int]) -> Array:

@@ -60,9 +60,7 @@ def principal_angles(U: object, V: object) -> Array:
     Each comes from its sine and its cosine together, so that an angle of 1e-12 is as accurate as one of 1. Raises
     InvalidData for different numbers of rows, dependent columns, or entries that are not finite.
     """
-    first, second = _orthonormal(U, "U"), _orthonormal(V, "V")
-    _same_space(first, second)
-    return _angles(first, second)
+    return compare_subspaces(U, V).angles
 
 
 def containment_distance(U: object, V: object) -> float:
@@ -104,7 +102,8 @@ def subspace_distance(U: object, V: object) -> float:
 def compare_subspaces(U: object, V: object) -> SubspaceComparison:
     """Compare dimensions, angles and both containments of span U (d, k) and span V (d, l). Raises as `principal_angles`."""
     first, second = _orthonormal(U, "U"), _orthonormal(V, "V")
-    _same_space(first, second)
+    if len(first) != len(second):
+        raise InvalidData(f"U, V: got {len(first)} and {len(second)} rows; subspaces of one space have the same number")
     k, other = first.shape[1], second.shape[1]
     angles = _angles(first, second)
     largest = float(np.sin(angles[-1])) if angles.size else 0.0
@@ -116,8 +115,9 @@ def containment_error(truth: object, estimate: object) -> float:
 
     Directions of `truth` for which `estimate` has no room count as right angles. Raises as `principal_angles`.
     """
-    angles, k, other = _angles_and_dimensions(truth, estimate)
-    return float(np.sqrt((np.sum(angles**2) + max(k - other, 0) * np.pi**2 / 4) / max(k, 1)) / (np.pi / 2))
+    compared = compare_subspaces(truth, estimate)
+    k, other = compared.dimensions
+    return float(np.sqrt((np.sum(compared.angles**2) + max(k - other, 0) * np.pi**2 / 4) / max(k, 1)) / (np.pi / 2))
 
 
 def two_sided_error(truth: object, estimate: object) -> float:
@@ -126,17 +126,13 @@ def two_sided_error(truth: object, estimate: object) -> float:
 
     Each dimension that one span has more than the other counts as a right angle.
     """
-    angles, k, other = _angles_and_dimensions(truth, estimate)
-    return float(np.sqrt((np.sum(angles**2) + abs(k - other) * np.pi**2 / 4) / max(k, other, 1)) / (np.pi / 2))
-
-
-def _angles_and_dimensions(U: object, V: object) -> tuple[Array, int, int]:
-    comparison = compare_subspaces(U, V)
-    return comparison.angles, *comparison.dimensions
+    compared = compare_subspaces(truth, estimate)
+    k, other = compared.dimensions
+    return float(np.sqrt((np.sum(compared.angles**2) + abs(k - other) * np.pi**2 / 4) / max(k, other, 1)) / (np.pi / 2))
 
 
 def _angles(first: Array, second: Array) -> Array:
-    """Return cosines see right angles well, sines small ones; the arc tangent of both sees all. Orthonormal columns in."""
+    """Return the angles between spans of orthonormal columns: cosines see right angles well, sines small ones, their arc tangent all."""
     if first.shape[1] < second.shape[1]:
         first, second = second, first
     if second.shape[1] == 0:
@@ -165,8 +161,3 @@ def _orthonormal(matrix: object, name: str) -> Array:
     if values[-1] <= DEPENDENT * values[0]:
         raise InvalidData(f"{name}: columns are dependent (singular values down to {values[-1]:.1e}); pass a basis")
     return np.asarray(left)
-
-
-def _same_space(first: Array, second: Array) -> None:
-    if first.shape[0] != second.shape[0]:
-        raise InvalidData(f"U, V: got {first.shape[0]} and {second.shape[0]} rows; subspaces of one space have the same number")

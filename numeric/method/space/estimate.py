@@ -23,7 +23,7 @@ import numpy as np
 from ....base.arrays import Array
 from ....base.errors import InvalidData
 from ....base.sheets import Shown, or_undecided
-from ...data.plain import plain
+from ...data.plain import by_name, plain
 from ..plotting import plot_conditions
 
 DRAWS = 4000
@@ -211,23 +211,9 @@ class FaultSpaceEstimate(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict; basis, F and G are null where the estimate means nothing."""
-        known = self.basis if self.meaningful else None
-        return {
-            "n": self.n,
-            "p": len(self.basis) - self.n,
-            "n_v": self.n_v,
-            "n_z": self.n_z if self.meaningful else None,
-            "zeta": self.zeta,
-            "equations": self.equations,
-            "unknowns": self.unknowns,
-            "meaningful": self.meaningful,
-            "decided": self.decided,
-            "reason": self.reason,
-            "block_rows": self.block_rows,
-            "basis": plain(known),
-            "F": plain(None if known is None else self.F),
-            "G": plain(None if known is None else self.G),
-        }
+        known = by_name(self, "n", "n_v", "n_z", "zeta", "equations", "unknowns", "meaningful", "decided", "reason", "block_rows")
+        known |= {"p": len(self.basis) - self.n} | by_name(self, "basis", "F", "G")
+        return known if self.meaningful else known | dict.fromkeys(("n_z", "basis", "F", "G"))
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the singular values of the conditions, those taken for zero open, into the matplotlib axes `ax`, new ones where None are

@@ -33,7 +33,7 @@ from ....base.chi_squared import chi_squared_tail
 from ....base.errors import InvalidData
 from ....base.sheets import Shown, counted
 from ....base.threads import one_thread
-from ...data.plain import plain
+from ...data.plain import by_name, plain
 from ...data.validation import noise_deviations
 from ..model.models import StateSpaceModel
 from ..model.residuals import HasModel
@@ -81,14 +81,9 @@ class Cause(SingleCause):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict, angles in degrees."""
-        return {
-            "kind": self.kind,
-            "channel": self.channel,
-            "angle_degrees": plain(np.degrees(self.angle)),
-            "bound_degrees": None if self.bound is None else plain(np.degrees(self.bound)),
-            "p_value": None if self.p_value is None else plain(self.p_value),
-            "answer": self.answer,
-        }
+        bound = None if self.bound is None else plain(np.degrees(self.bound))
+        angles = {"angle_degrees": plain(np.degrees(self.angle)), "bound_degrees": bound}
+        return by_name(self, "kind", "channel", "p_value", "answer") | angles
 
 
 @dataclass(frozen=True, repr=False)
@@ -162,13 +157,8 @@ class Isolation(SingleCauses[Cause]):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict, angles in degrees."""
-        return {
-            "answer": self.answer,
-            "reason": self.reason,
-            "n_v": self.n_v,
-            "causes": [cause.to_json() for cause in self.causes],
-            "sets": [[cause.name for cause in several] for several in self.sets],
-        }
+        sets = [[cause.name for cause in several] for several in self.sets]
+        return by_name(self, "answer", "reason", "n_v", "causes") | {"sets": sets}
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the angles as bars with their bounds into the matplotlib axes `ax`, new ones where None are given, and return them. Raises

@@ -35,7 +35,7 @@ from ....base.arrays import Array
 from ....base.errors import InvalidData, shorten
 from ....base.sheets import counted
 from ....base.threads import one_thread
-from ...data.plain import plain
+from ...data.plain import by_name, plain
 from ..model.models import StateSpaceModel
 from ..model.residuals import HasModel
 from ..plotting import plot_chances
@@ -57,15 +57,8 @@ class ShiftCause(SingleCause):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict, the bound in degrees."""
-        return {
-            "kind": self.kind,
-            "channel": self.channel,
-            "size": plain(self.size),
-            "deviation": plain(self.deviation),
-            "bound_degrees": None if self.bound is None else plain(np.degrees(self.bound)),
-            "p_value": plain(self.p_value),
-            "answer": self.answer,
-        }
+        bound = None if self.bound is None else plain(np.degrees(self.bound))
+        return by_name(self, "kind", "channel", "size", "deviation", "p_value", "answer") | {"bound_degrees": bound}
 
 
 @dataclass(frozen=True, repr=False)
@@ -107,14 +100,7 @@ class ShiftIsolation(SingleCauses[ShiftCause]):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict, bounds in degrees."""
-        return {
-            "answer": self.answer,
-            "reason": self.reason,
-            "actuators": self.actuators,
-            "samples": None if self.samples is None else list(self.samples),
-            "against": None if self.against is None else list(self.against),
-            "causes": [cause.to_json() for cause in self.causes],
-        }
+        return by_name(self, "answer", "reason", "actuators", "samples", "against", "causes")
 
 
 @dataclass(frozen=True)

@@ -12,10 +12,6 @@ the model's matrices serves in any gauge.
 
 The number of zeros is taken as right: a wrong one is no matter of angles. So is the noise (one colour, the same power relative to each
 channel): the bias of other noise is not in the angle.
-
-    space_uncertainty   from a kernel basis of maximum likelihood, whose coefficients have a covariance
-    turned_by_rows      what unit changes of the coefficients of the rows do to the basis
-    turned_by_model     the same for the entries of [A; C]
 """
 
 from __future__ import annotations

@@ -5,8 +5,6 @@ at the upper end of their exact confidence intervals at a quarter of the level e
 probabilities, a run of L equal values would begin at one of M samples with probability M a b^(L-2) at most. Where nothing repeats among
 the healthy samples b is a. A quantised sensor, whose healthy values repeat most of the time, may stand still for as long as the record
 lasts: the row says from how many samples on a run would have been seen, if any.
-
-    frozen_sensors    a row for each output
 """
 
 from __future__ import annotations

@@ -9,8 +9,6 @@ The model was fitted to the healthy part, so that there is hardly anything of th
 knew the gain is the variance of the same regression there, and it is added. With the regressors X of the predictor before the signal z,
 the coefficient g0 of z in the healthy part comes from what X leaves of z (Frisch and Waugh), and the difference g - R g0 is tested, R the
 share of z in the part tested that X, with the healthy coefficients, leaves. The two are independent for white e.
-
-    changed_gains    a row for each output and each input
 """
 
 from __future__ import annotations

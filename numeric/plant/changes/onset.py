@@ -23,7 +23,7 @@ from ....base.arrays import Array
 from ....base.errors import InvalidData
 from ....base.sheets import Shown, counted
 from ....base.threads import one_thread
-from ...data.plain import plain
+from ...data.plain import by_name, plain
 from ...data.records import SampleStore, Stored, stored
 from ...data.validation import signal, whole
 from .change_scan import LEAST, Reader, Scan, changed_outputs, choose_lags, located, scan
@@ -62,17 +62,7 @@ class Onset:
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict."""
-        return {
-            "sample": self.sample,
-            "interval": list(self.interval),
-            "p_value": self.p_value,
-            "changed": list(self.changed),
-            "chances": plain(self.chances),
-            "stretch": list(self.stretch),
-            "shift": plain(self.shift),
-            "growth": plain(self.growth),
-            "size": plain(self.size),
-        }
+        return by_name(self) | {"size": plain(self.size)}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -135,18 +125,8 @@ class FaultOnset(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict."""
-        return {
-            "onsets": [onset.to_json() for onset in self.onsets],
-            "samples": self.samples,
-            "healthy": self.healthy,
-            "reference": list(self.reference),
-            "deviation": plain(self.deviation),
-            "level": self.level,
-            "confidence": self.confidence,
-            "p_value": self.p_value,
-            "lags": self.lags,
-            "reason": self.reason,
-        }
+        names = ("onsets", "samples", "healthy", "reference", "deviation", "level", "confidence", "p_value", "lags", "reason")
+        return by_name(self, *names)
 
 
 @dataclass(frozen=True, eq=False)
@@ -226,14 +206,18 @@ def fault_onset(
     if not 0 < confidence < 1:
         raise InvalidData(f"confidence: got {confidence}; a number between 0 and 1 is needed, for example 0.95")
     record = _scanned(store, 0, N, known or 0)
-    if not record.moving.any():
-        return _nothing(store, known, level, confidence, 0, None, "the residual never changes at all")
-    if record.found is None:
-        return _nothing(store, known, level, confidence, record.lags, None, f"{counted(N, 'sample')} are too few to look for a change")
-    changes, p_value = _changes(store, record, known or 0, level, confidence), record.found.p_value
-    if not changes:
-        return _nothing(store, known, level, confidence, record.lags, p_value, _alike(known, p_value, level))
-    return _measured(store, changes, known, level, confidence, p_value, record.lags)
+    changes = _changes(store, record, known or 0, level, confidence)
+    p_value = None if record.found is None else record.found.p_value
+    if changes:
+        reason = _found(changes, known, level)
+    elif p_value is not None:
+        reason = _alike(known, p_value, level)
+    else:
+        reason = f"{counted(N, 'sample')} are too few to look for a change" if record.moving.any() else "the residual never changes at all"
+    reference = (0, changes[0].interval[0] if changes else known or N)
+    mean, deviation = _moments(store, *reference)
+    onsets = tuple(_measured(store, changes, mean, deviation, level))
+    return FaultOnset(onsets, N, known, reference, deviation, level, confidence, p_value, record.lags, reason)
 
 
 def _scaled(store: SampleStore, start: int, stop: int) -> tuple[Reader, NDArray[np.bool_]]:
@@ -269,30 +253,16 @@ def _changes(store: SampleStore, stretch: _Stretch, earliest: int, level: float,
     return [*before, change, *_changes(store, _scanned(store, stop, stretch.last, stop + 1), stop + 1, level, confidence)]
 
 
-def _measured(
-    store: SampleStore,
-    changes: list[_Change],
-    healthy: int | None,
-    level: float,
-    confidence: float,
-    p_value: float,
-    lags: int,
-) -> FaultOnset:
-    """Return the changes with their sizes beside what comes before the first of them."""
-    ends = [change.interval[0] for change in changes[1:]] + [len(store)]
-    reference = (0, changes[0].interval[0])
-    mean, deviation = _moments(store, *reference)
+def _measured(store: SampleStore, changes: list[_Change], mean: Array, deviation: Array, level: float) -> Iterator[Onset]:
+    """Yield the changes with their sizes beside mean and deviation (p,) of what comes before the first of them."""
+    ends = [*(change.interval[0] for change in changes), len(store)][1:]
     sigma = np.where(deviation > 0, deviation, np.nan)
-    onsets = []
     for change, stop in zip(changes, ends, strict=True):
         stretch = (change.interval[1], stop)
         after, spread = _moments(store, *stretch)
         seen = tuple(int(j) for j in np.flatnonzero(change.chances <= level))
         shift, growth = (after - mean) / sigma, spread / sigma
-        onsets.append(Onset(change.sample, change.interval, change.p_value, seen, change.chances, stretch, shift, growth))
-    return FaultOnset(
-        tuple(onsets), len(store), healthy, reference, deviation, level, confidence, p_value, lags, _found(changes, healthy, level)
-    )
+        yield Onset(change.sample, change.interval, change.p_value, seen, change.chances, stretch, shift, growth)
 
 
 def _moments(store: SampleStore, first: int, last: int) -> tuple[Array, Array]:
@@ -327,11 +297,3 @@ def _alike(healthy: int | None, p_value: float, level: float) -> str:
         f"the residual is alike from the first sample to the last: {chance}; a fault that acts, acts all the time, and has no onset in "
         "this record"
     )
-
-
-def _nothing(
-    store: SampleStore, healthy: int | None, level: float, confidence: float, lags: int, p_value: float | None, reason: str
-) -> FaultOnset:
-    """Return the answer without an onset."""
-    reference = (0, healthy or len(store))
-    return FaultOnset((), len(store), healthy, reference, _moments(store, *reference)[1], level, confidence, p_value, lags, reason)

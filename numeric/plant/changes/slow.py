@@ -4,10 +4,6 @@ A constant or slope d of r is (I - sum A_j) d in the innovations e. The estimate
 together, so that what moves in one output is not put down to another. Where the standard errors of the model's static gain are known, what
 they make of a constant or slope of the inputs is in the variance too, of which few lags of the inputs hold part. The power of both kinds
 stands at the lowest frequencies, where a residual that wanders has more than any healthy part can tell: undecided there.
-
-    slow_changes    a row for the mean and one for the drift of each output
-    drifting        the outputs that drift within the healthy part
-    about_slope     signals with mean and slope taken off
 """
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ....base.sheets import Shown, counted
-from ...data.plain import plain
+from ...data.plain import by_name
 from .table_rows import Evidence
 
 HEALTHY, FIRST_HALF = "the healthy samples", "the first half of the record"
@@ -56,20 +56,7 @@ class Change:
 
     def to_json(self) -> dict[str, Any]:
         """Return the row as a JSON-ready dict."""
-        return {
-            "kind": self.kind,
-            "channel": self.channel,
-            "seen": self.seen,
-            "reason": self.reason,
-            "probability": plain(self.probability),
-            "statistic": plain(self.statistic),
-            "size": plain(self.size),
-            "sigmas": plain(self.sigmas),
-            "visible": plain(self.visible),
-            "visible_sigmas": plain(self.visible_sigmas),
-            "unit": self.unit,
-            "detail": self.detail,
-        }
+        return by_name(self)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -1,10 +1,4 @@
-"""A row of the table of changes before it is judged, and the sums over time that two kinds of rows are made of.
-
-Evidence    what one test says of one channel: its probability by chance, the size of the change, the size that would be seen
-Estimate    a linear estimate with its standard deviation
-estimate    of sum_k w(k)' e(k), colour and the error of the predictor in its variance
-by_student  Evidence from an estimate
-"""
+"""A row of the table of changes before it is judged, and the sums over time that two kinds of rows are made of."""
 
 from __future__ import annotations
 

@@ -7,8 +7,6 @@ growth    the mean square of the innovations, about their mean and slope, agains
 loss      the squares of the steps y(k) - y(k-1) of the raw output, less those of the simulated output, against the same of the healthy
           part: the simulated output goes on moving where the sensor is stuck, and is still where the inputs are. Student's law, with
           the variance of such means at frequency zero.
-
-changed_variances    a row for growth and one for loss of each output
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ....base.sheets import Shown, counted
-from ...data.plain import plain
+from ...data.plain import by_name
 
 DOUBT_LEVEL = 1e-3
 """The probability with which a test of one kind raises a doubt, in all channels together, where there is no reason for it."""
@@ -50,8 +50,7 @@ class Doubt:
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict; a chance of null stands for a plain fact."""
-        words = {"kind": self.kind, "channels": list(self.channels), "evidence": self.evidence, "effect": self.effect}
-        return words | {"advice": self.advice, "chance": plain(self.chance)}
+        return by_name(self)
 
 
 @dataclass(frozen=True, repr=False)
@@ -104,12 +103,7 @@ class Doubts(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict: the rows, the kinds that were asked, why others were not, and the level of each test."""
-        return {
-            "level": DOUBT_LEVEL,
-            "rows": [row.to_json() for row in self.rows],
-            "asked": list(self.asked),
-            "unasked": dict(self.unasked),
-        }
+        return {"level": DOUBT_LEVEL} | by_name(self, "rows", "asked", "unasked")
 
 
 def named(channels: Sequence[str]) -> str:

@@ -52,7 +52,7 @@ from ....base.arrays import Array
 from ....base.errors import InvalidData
 from ....base.sheets import Shown, counted
 from ....base.threads import one_thread
-from ...data.plain import plain
+from ...data.plain import by_name, plain
 from ...method.plotting import plot_fault_signal, plot_roots
 from .healthy_model import FEW_TAPERS, HEALTHY_LEVEL, HealthyReference, Spectra, covering_spectra
 
@@ -118,17 +118,7 @@ class FaultsAgainstHealthy(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict of the answer, its reason and everything by frequency."""
-        return {
-            "n_v": self.n_v,
-            "at_least": self.at_least,
-            "reason": self.reason,
-            "visible": plain(self.visible),
-            "kept": plain(self.kept),
-            "frequencies": plain(self.frequencies),
-            "roots": plain(self.roots),
-            "thresholds": plain(self.thresholds),
-            "counts": [int(count) for count in self.counts],
-        }
+        return by_name(self, "n_v", "at_least", "reason", "visible", "kept", "frequencies", "roots", "thresholds", "counts")
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the largest roots and their thresholds by frequency into the matplotlib axes `ax`, new ones where None are given, and

@@ -1,7 +1,5 @@
 """The least fault that a count against a healthy record would have found: a white signal at one output, found with a stated chance.
 
-    visible_white_faults    standard deviation (p,) of such a signal at each output, in units of r
-
 The count finds the fault where the largest root of the record's covariance against the healthy one exceeds its threshold at one centre
 at least. For a white signal of variance s^2 at output i the whitened covariance at centre f is I + g h h*, h a unit vector and g(f) =
 s^2 |Phi^(-1/2) a_i|^2, a_i column i of the filter from r to the innovations. The chance that the root exceeds a threshold depends on g,

@@ -44,7 +44,7 @@ from ....base.arrays import Array
 from ....base.errors import InvalidData
 from ....base.sheets import Shown, counted
 from ....base.threads import one_thread
-from ...data.plain import plain
+from ...data.plain import by_name, plain
 from ...data.validation import signal
 from ...method.ranks.sample_windows import channel_sizes, stacked_triangle
 from .largest_root import largest_root_quantile
@@ -128,22 +128,9 @@ class HealthyReference(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict of everything but the samples of the halves; complex numbers are pairs."""
-        strains = [
-            {"tapers": tapers, "frequencies": plain(frequencies), "strains": plain(values)}
-            for tapers, (frequencies, values) in self.strains.items()
-        ]
-        return {
-            "samples": self.samples,
-            "scales": plain(self.scales),
-            "input_scales": plain(self.input_scales),
-            "lags": self.lags,
-            "coefficients": plain(self.coefficients),
-            "root": plain(self.root),
-            "centres": plain(self.centres),
-            "covariances": plain(self.covariances),
-            "freedom": self.freedom,
-            "strains": strains,
-        }
+        names = ("samples", "scales", "input_scales", "lags", "coefficients", "root", "centres", "covariances", "freedom")
+        strains = [{"tapers": tapers, "frequencies": plain(at), "strains": plain(values)} for tapers, (at, values) in self.strains.items()]
+        return by_name(self, *names) | {"strains": strains}
 
     @property
     def p(self) -> int:

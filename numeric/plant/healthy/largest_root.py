@@ -8,9 +8,6 @@ roots of det(S1 - l S0) = 0 are then distributed as follows, whatever that covar
 and for K1 < d, where d - K1 roots are zero, the same with (d, K1, K0) replaced by (K1, d, K0 + K1 - d). The largest is below x with
 probability det(I - M(x)), M_ij the integral of phi_i phi_j over (x, 1), phi_i the orthonormal Jacobi functions of that weight (the
 identity of Andreief). In this basis the determinant is computed without cancellation, where that of incomplete beta functions is not.
-
-    largest_root_probability    P(largest root <= l)
-    largest_root_quantile       the l that is exceeded with a given probability
 """
 
 from __future__ import annotations

@@ -21,9 +21,9 @@ healthy record says what means are worth: how much noise there is at frequency z
 Undecided, with the reason, where the test has no ground: a predictor with a root at one within what a random walk of K samples shows
 [F76], for then a mean says nothing; a healthy record whose own halves differ by the same test; more outputs than B.
 
-    MeanReference, mean_reference    what the healthy record teaches
-    MeanShift, mean_shift            the test of another part
-    mean_about_zero                  whether a residual has a mean at all, by its own noise
+    MeanReference           what the healthy record teaches
+    MeanShift, mean_shift   the test of another part
+    mean_about_zero         whether a residual has a mean at all, by its own noise
 """
 
 from __future__ import annotations
@@ -121,15 +121,9 @@ class MeanShift:
     freedom: int | None = None
 
 
-def mean_reference(healthy: ArrayLike, u: ArrayLike | None = None) -> MeanReference:
-    """Learn from a healthy residual (N, p) and its inputs (N, n_u).
-
-    Raises InvalidData for NaN, channels that are constant or exact combinations of others, and too few samples for the channels.
-    """
-    return _learnt(*residual_and_inputs(healthy, u))
-
-
 def _learnt(r: Array, inputs: Array) -> MeanReference:
+    """Learn from a healthy residual (N, p) and its inputs (N, n_u). Raises InvalidData for channels that are constant or exact combinations
+    of others, and too few samples for the channels."""
     scales, input_scales = channel_sizes(r - r.mean(axis=0)), _sizes(inputs)
     r, inputs = r / scales, inputs / input_scales
     K, p = r.shape

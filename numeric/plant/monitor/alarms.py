@@ -1,18 +1,14 @@
-"""What a monitor says: alarms, and what it saw of the samples that it was given.
-
-Alarm       one test has crossed its threshold
-Watched     alarms, statistics and innovations of a stretch of samples
-"""
+"""What a monitor says: alarms, and what it saw of the samples that it was given."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 from ....base.arrays import Array
 from ....base.sheets import Shown, counted
-from ...data.plain import plain
+from ...data.plain import by_name
 from .statistics import TESTS
 
 MISSING = "missing"
@@ -74,7 +70,7 @@ class Alarm(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return the fields as a JSON-ready dict."""
-        return {name: plain(value) if isinstance(value, float) else value for name, value in asdict(self).items()}
+        return by_name(self)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -107,9 +103,4 @@ class Watched(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict; null stands for NaN."""
-        return {
-            "first": self.first,
-            "alarms": [alarm.to_json() for alarm in self.alarms],
-            "statistics": plain(self.statistics),
-            "innovations": plain(self.innovations),
-        }
+        return by_name(self, "first", "alarms", "statistics", "innovations")

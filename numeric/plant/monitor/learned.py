@@ -12,7 +12,7 @@ The window and the shift cannot: other ones have other statistics.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
@@ -21,7 +21,7 @@ from ....base.arrays import Array
 from ....base.errors import InvalidData, shorten
 from ....base.progress import Progress, silent
 from ....base.sheets import counted
-from ...data.plain import plain
+from ...data.plain import by_name
 from ...data.validation import whole
 from ...method.model.models import FORMAT as MODEL_FORMAT
 from ...method.model.models import StateSpaceModel
@@ -60,22 +60,14 @@ class Learned:
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict; null stands for infinite. Floats come back bit for bit."""
-        form, units = self.form, self.form.units
+        form = self.form
         return {
             "format": FORMAT,
-            "outputs": list(self.outputs),
-            "inputs": list(self.inputs),
-            "window": self.settings.window,
-            "shift": self.settings.shift,
-            "samples": self.samples,
-            "notes": list(self.notes),
-            "lags": form.lags,
-            "parameters": form.parameters,
-            "units": {field.name: plain(getattr(units, field.name)) for field in fields(Units)},
-            "form": {name: plain(getattr(form, name)) for name in _MATRICES},
-            "least": plain(self.least),
-            "greatest": plain(self.greatest),
-            "maxima": plain(self.maxima),
+            **by_name(self, "outputs", "inputs", "samples", "notes", "least", "greatest", "maxima"),
+            **by_name(self.settings, "window", "shift"),
+            **by_name(form, "lags", "parameters"),
+            "units": by_name(form.units),
+            "form": by_name(form, *_MATRICES),
         }
 
     @classmethod

@@ -18,7 +18,7 @@ from ....base.errors import InvalidData, shorten
 from ....base.progress import Progress, silent
 from ....base.sheets import Shown, counted
 from ....base.threads import one_thread
-from ...data.plain import plain
+from ...data.plain import by_name, plain
 from ...data.records import Record, recorded
 from ...data.sources import Source, record_from
 from ...data.validation import signal, whole
@@ -319,24 +319,16 @@ class Monitor(Shown):
         """Return a JSON-ready dict of what the sheet tells."""
         found = self.calibration
         return {
-            "outputs": list(self.outputs),
-            "inputs": list(self.inputs),
-            "level": found.level,
-            "window": self._settings.window,
-            "shift": self._settings.shift,
+            **by_name(self, "outputs", "inputs", "notes", "samples", "missing", "begun_anew", "alarms"),
+            **by_name(self._settings, "window", "shift"),
+            **by_name(found, "level", "healthy_alarms"),
             "tests": list(TESTS),
             "thresholds": plain(found.threshold),
             "gaussian_thresholds": plain(found.ideal),
             "healthy_samples": found.samples,
             "healthy_samples_needed": found.needed,
-            "healthy_alarms": list(found.healthy_alarms),
             "lags": self._form.lags,
-            "notes": list(self.notes),
-            "samples": self.samples,
             "not_judged": self.untested,
-            "missing": plain(self.missing),
-            "begun_anew": self.begun_anew,
-            "alarms": dict(self.alarms),
         }
 
 

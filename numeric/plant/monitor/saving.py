@@ -1,8 +1,4 @@
-"""The file of a saved monitor: written whole or not at all, and never over a file that is another.
-
-write    a document into a file
-read     the document in a file, or in the model.json of a folder that `identify` wrote
-"""
+"""The file of a saved monitor: written whole or not at all, and never over a file that is another."""
 
 from __future__ import annotations
 

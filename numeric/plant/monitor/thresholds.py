@@ -16,8 +16,7 @@ cannot show are rates beyond its length: 10 / rate samples are needed for a rate
 shape of the tail is that of Gaussian noise, and `notes` of the Calibration says so.
 
 Calibration         thresholds with what they rest on
-calibrate           from healthy errors
-largest_of_blocks   what it needs of them, for whatever rate
+largest_of_blocks   what they need of healthy errors, for whatever rate
 calibrated          from that
 simulated           block maxima of Gaussian streams
 """
@@ -119,14 +118,6 @@ def _tail(maxima: Array, beyond: float) -> float:
         return float(np.quantile(maxima, 1 - beyond))
     edge = float(np.quantile(maxima, 1 - TAIL))
     return edge + float(np.mean(maxima[maxima > edge] - edge)) * float(np.log(TAIL / beyond))
-
-
-def calibrate(settings: Settings, level: float, errors: Array, sizes: Array) -> Calibration:
-    """Return the thresholds for `level` false alarms a sample of all tests together, from healthy errors (M, p) and (M, p) as `Bank` takes.
-
-    Raises InvalidData where there are fewer than LEAST_BLOCKS blocks.
-    """
-    return calibrated(settings, level, largest_of_blocks(settings, errors, sizes), len(errors))
 
 
 def largest_of_blocks(settings: Settings, errors: Array, sizes: Array, heard: Progress = silent) -> Array:

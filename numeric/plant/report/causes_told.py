@@ -21,6 +21,7 @@ import numpy as np
 from ....base.others_text import table_cell
 from ....base.progress import Progress
 from ....base.writing import new_file
+from ...data.plain import by_name
 from ...method.plotting import plot_onsets
 from .by_experiment import numbered
 
@@ -125,11 +126,8 @@ def _shift_lines(found: ShiftIsolation) -> Iterator[str]:
 def told(answer: Answer) -> dict[str, Any]:
     """Return all of it in JSON, null where nothing was asked."""
     onset, names = answer.onset, answer.record.outputs
-    return {
-        "onset": None if onset is None else onset.to_json() | {"outputs": list(names)},
-        "isolation": None if answer.isolation is None else answer.isolation.to_json(),
-        "shift_isolation": None if answer.shift_isolation is None else answer.shift_isolation.to_json(),
-    }
+    told = None if onset is None else onset.to_json() | {"outputs": list(names)}
+    return {"onset": told} | by_name(answer, "isolation", "shift_isolation")
 
 
 def _sizes(names: tuple[str, ...], sizes: Any) -> str:

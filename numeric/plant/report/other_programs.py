@@ -1,9 +1,8 @@
-"""This hands an Identification over for other programs: python-control, scipy.signal and MATLAB.
+"""This hands an Identification over for other programs.
 
-to_control   control.StateSpace with the names of the channels
-to_scipy     scipy.signal.dlti
-to_mat       a MAT file with A, B, C, D, F, G, names and sample time
-to_pandas    a data frame with the channels, the residual and the fault signal, by time
+handed_on   the model, for python-control and scipy.signal
+to_mat      a MAT file with A, B, C, D, F, G, names and sample time
+to_pandas   a data frame with the channels, the residual and the fault signal, by time
 """
 
 from __future__ import annotations
@@ -27,27 +26,18 @@ if TYPE_CHECKING:
 UNKNOWN = -1.0  # the sample time that MATLAB's `ss` takes where it is not stated
 
 
-def _model(answer: Answer) -> StateSpaceModel:
+def handed_on(answer: Answer) -> StateSpaceModel:
+    """Return the model. Raises InvalidData where there is none."""
     if answer.model is None:
         raise InvalidData("there is no model to hand on, since the order is undecided: state an order")
     return answer.model.model
-
-
-def to_control(answer: Answer) -> Any:
-    """Return the model as control.StateSpace, from the inputs to the outputs by their names."""
-    return _model(answer).to_control(dt=answer.dt, inputs=answer.record.inputs, outputs=answer.record.outputs)
-
-
-def to_scipy(answer: Answer) -> Any:
-    """Return the model as scipy.signal.dlti with the sample time, 1 where none was stated."""
-    return _model(answer).to_scipy(dt=answer.dt)
 
 
 def to_mat(answer: Answer, path: str | os.PathLike[str]) -> None:
     """Write A, B, C, D, F, G, x0, names and sample time into a MAT file; F and G have no columns where no pair was found."""
     from scipy.io import savemat
 
-    model, record = _model(answer), answer.record
+    model, record = handed_on(answer), answer.record
     F, G = answer.pair or (np.zeros((model.n, 0)), np.zeros((model.p, 0)))
     x0 = np.zeros(0) if answer.residual is None else answer.residual.x0
     content = {"A": model.A, "B": model.B, "C": model.C, "D": model.D, "F": F, "G": G, "x0": x0[:, np.newaxis]}

@@ -19,7 +19,7 @@ from ....base.errors import InvalidData, InvalidInput, quote_path, shorten
 from ....base.others_text import table_cell
 from ....base.progress import Progress
 from ....base.writing import UNFINISHED, new_file, reason
-from ...data.plain import plain
+from ...data.plain import by_name, plain
 from ...method.model.invariants import half_transfers, system_matrix
 from ...method.model.moesp_model import MoespModel
 from ...method.model.reduced_model import ReducedModel
@@ -56,22 +56,15 @@ def document(answer: Answer, data: str, *, worded: Callable[[str], str] = str) -
         "outputs": list(record.outputs),
         "experiments": experiments(answer),
         "operating_point": answer.operating_point.to_json() | {"reason": worded(answer.operating_point.reason)},
-        "block_rows": answer.block_rows,
+        **by_name(answer, "block_rows", "order_given", "singular_values", "exact", "n_v", "n_v_given", "healthy_record", "noise_level"),
         "order": model.order if model else None,
-        "order_given": answer.order_given,
-        "singular_values": plain(answer.singular_values),
-        "exact": answer.exact,
         "model_from": answer.way,
-        "n_v": answer.n_v,
         "n_v_possible": list(answer.possible) if answer.n_v is None else [answer.n_v],
         "n_v_at_least": answer.at_least,
-        "n_v_given": answer.n_v_given,
         "n_v_reason": worded(answer.reason),
-        "n_v_because": [reason.to_json() for reason in answer.because],
+        "n_v_because": plain(answer.because),
         "n_v_from": answer.counted_by,
         "healthy_until": answer.healthy,
-        "healthy_record": answer.healthy_record,
-        "noise_level": plain(answer.noise_level),
         "doubts": None if answer.doubts is None else _worded(answer.doubts.to_json(), worded),
         "notes": [worded(note) for note in answer.notes],
         "next": [worded(line) for line in advice(answer)],
@@ -89,34 +82,15 @@ def document(answer: Answer, data: str, *, worded: Callable[[str], str] = str) -
     if answer.count:
         result["laws"] = answer.count.to_json()
     if answer.dimension:
-        found = answer.dimension
-        result |= {
-            "residual_dimension": found.n_v,
-            "counted_on": list(answer.held),
-            "regime": found.regime,
-            "windows": list(found.windows),
-            "ranks": list(found.ranks),
-            "gaps": list(found.gaps),
-            "margins": plain(found.margins),
-        }
+        result |= {"residual_dimension": answer.dimension.n_v, "counted_on": list(answer.held)}
+        result |= by_name(answer.dimension, "regime", "windows", "ranks", "gaps", "margins")
     if answer.against:
-        result["against_healthy"] = {
-            "n_v": answer.against.n_v,
-            "at_least": answer.against.at_least,
-            "reason": answer.against.reason,
-            "healthy": list(answer.counted_against),
-            "visible": plain(answer.against.visible),
-        }
+        counted = by_name(answer.against, "n_v", "at_least", "reason", "visible")
+        result["against_healthy"] = counted | {"healthy": list(answer.counted_against)}
     mean = answer.mean
     result["mean_shift"] = mean and {
         "against": "zero" if answer.healthy is None else "healthy samples",
-        "shifted": mean.shifted,
-        "reason": mean.reason,
-        "level": mean.level,
-        "statistic": plain(mean.statistic),
-        "threshold": plain(mean.threshold),
-        "shift": plain(mean.shift),
-        "deviations": plain(mean.deviations),
+        **by_name(mean, "shifted", "reason", "level", "statistic", "threshold", "shift", "deviations"),
         "outputs": [answer.record.outputs[i] for i in mean.channels],
     }
     result["changes"] = answer.changes and answer.changes.to_json()
@@ -126,15 +100,7 @@ def document(answer: Answer, data: str, *, worded: Callable[[str], str] = str) -
     result |= told(answer)
     result["explained"] = plain(answer.explained)
     result["explained_by_noise"] = plain(answer.by_noise)
-    signal = answer.signal
-    result["fault_signal"] = signal and {
-        "delay": signal.delay,
-        "trusted": list(signal.trusted),
-        "zeros": plain(signal.zeros),
-        "misfit": plain(signal.misfit),
-        "mismatch": plain(signal.mismatch),
-        "reason": signal.reason,
-    }
+    result["fault_signal"] = answer.signal and by_name(answer.signal, "delay", "trusted", "zeros", "misfit", "mismatch", "reason")
     return result
 
 
@@ -145,11 +111,7 @@ def _worded(found: dict[str, Any], worded: Callable[[str], str]) -> dict[str, An
 
 def _of_past_inputs(model: MoespModel) -> dict[str, Any]:
     """Return what PI-MOESP's model rests on."""
-    return {
-        "order_gap": plain(model.gap.ratio),
-        "order_gap_clean": model.gap.clean,
-        "condition_numbers": {name: plain(value) for name, value in model.condition_numbers.items()},
-    }
+    return {"order_gap": plain(model.gap.ratio), "order_gap_clean": model.gap.clean} | by_name(model, "condition_numbers")
 
 
 def _of_reduction(model: ReducedModel) -> dict[str, Any]:

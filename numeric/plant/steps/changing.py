@@ -1,9 +1,5 @@
 """What has changed since the healthy samples of an identification, and what this leaves of a number of faults.
 
-changes_in        the table of an experiment: against the healthy samples, or the little that can be said within a record without them
-beside_changes    a count where tables forbid to say 0
-unlike_healthy_ranks    a count by ranks alone, where the healthy part is too short to count against it
-
 No number of faults follows from the table: a constant fault has no rank, and one fault can be seen in several rows. But 0 is too much said
 where a row is seen, or would be seen but for a doubt.
 """

@@ -21,7 +21,7 @@ import numpy as np
 
 from ....base.arrays import Array
 from ....base.errors import InvalidData, shorten
-from ...data.plain import plain
+from ...data.plain import by_name
 from ...data.records import Record
 from ...method.ranks.exactness import SCREENED, obeys_exactly
 from ..doubt.listing import named
@@ -50,9 +50,7 @@ class OperatingPoint:
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict."""
-        return {"of": self.of, "reason": self.reason, "stated": self.stated, "values": plain(self.values)} | {
-            "by_experiment": [plain(one) for one in self.by_experiment]
-        }
+        return by_name(self, "of", "reason", "stated", "values", "by_experiment")
 
 
 def asked_for(operating_point: object) -> str | None:

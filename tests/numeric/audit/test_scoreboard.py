@@ -26,9 +26,7 @@ from faultspace.numeric.audit.peers import JULIA, PEERS, Peer
 from faultspace.numeric.audit.peers import peer as peer_named
 from faultspace.numeric.audit.records import Demand
 from faultspace.numeric.audit.running import audit
-from faultspace.numeric.audit.scoreboard.boards import merged, tallies
-from faultspace.numeric.audit.scoreboard.pages import KEPT, path, text, write_pages
-from faultspace.numeric.audit.scoreboard.records import Audited, Board
+from faultspace.numeric.audit.scoreboard import KEPT, Audited, Board, merged, path, tallies, text, write_pages
 from faultspace.numeric.audit.vectors.shipped_vectors import shipped
 from faultspace.numeric.audit.vectors.trouble import default_troubles
 from tests.numeric.audit.test_peers import EXCLUDING, few_block_rows

@@ -23,7 +23,8 @@ from faultspace.numeric.audit.making.all_vectors import MAKERS, documents, main
 from faultspace.numeric.audit.making.fault_records import singular_values
 from faultspace.numeric.audit.vectors.exact_comparison import markov, polynomial_from_the_top
 from faultspace.numeric.audit.vectors.fault_vectors import VIEWS, in_channel_units, unexciting_inputs
-from faultspace.numeric.audit.vectors.shipped_vectors import KINDS, floats, fractions, matrix, scaled, shipped, signs
+from faultspace.numeric.audit.vectors.rationals import floats, fractions, matrix, scaled, signs
+from faultspace.numeric.audit.vectors.shipped_vectors import KINDS, shipped
 from faultspace.numeric.method.model.models import StateSpaceModel
 from faultspace.numeric.method.space.by_ranks import noise_free_fault_space
 from tests.thorough import every
