@@ -69,19 +69,7 @@ def performed(asked: Asked, expected: Path | None) -> Audit:
     """Return the audit, with the failures that a file expects. Raises InvalidInput."""
     known = () if expected is None else expected_in(expected)
     with working("starting the adapter") as tell:
-        return audit(
-            asked.adapter,
-            command=asked.command,
-            peer=asked.peer,
-            only=asked.only,
-            seed=asked.seed,
-            quick=asked.quick,
-            expected=known,
-            seconds=asked.seconds,
-            gibibytes=asked.gibibytes,
-            environment=asked.environment,
-            on_progress=tell,
-        )
+        return audit(**vars(asked), expected=known, on_progress=tell)
 
 
 def saved(file: Path, asked: Asked, expected: Path | None) -> Audit:

@@ -42,7 +42,7 @@ Made = Callable[[tuple[CheckResult, ...]], None]
 @pytest.fixture
 def made(monkeypatch: pytest.MonkeyPatch) -> Made:
     """The test calls it with the results of the run."""
-    return lambda results: monkeypatch.setattr(auditing, "audit", lambda name, **settings: Audit(str(name), results))
+    return lambda results: monkeypatch.setattr(auditing, "audit", lambda adapter, **settings: Audit(str(adapter), results))
 
 
 def test_a_function_has_a_line_and_failures_are_told_in_words(made: Made) -> None:

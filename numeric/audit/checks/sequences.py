@@ -134,10 +134,7 @@ def alike() -> tuple[FaultVector, FaultVector]:
     half = vector.v.nrows // 2
     v = stacked(vector.v.rows(range(half)), vector.v.rows(range(vector.v.nrows - 1, half - 1, -1)))
     other = replace(vector, v=v)
-    bounds = {
-        "residual": residual_bound(other.r, other.system, other.view.scale),
-        "signal": signal_bound(other.r, other.system, other.x0),
-    }
+    bounds = {"residual": residual_bound(other.r, other.system, other.view.scale), "signal": signal_bound(other.r, other.system, other.x0)}
     return vector, replace(other, bounds=bounds)
 
 

@@ -59,11 +59,7 @@ def checks() -> Iterator[Check]:
     """This yields all checks of the module."""
     for function, vector, arguments in questions():
         for slug, effect, measure in (
-            (
-                "leaves-the-state",
-                "what others compute next changes: random numbers, warnings, threads",
-                _leaves_the_state,
-            ),
+            ("leaves-the-state", "what others compute next changes: random numbers, warnings, threads", _leaves_the_state),
             ("prints-nothing", "noise on the standard output, where programs read", _prints_nothing),
             ("leaves-no-files", "files are left in folders of others", _leaves_no_files),
             ("order-of-calls", "the answer depends on what was asked before", _order_of_calls),

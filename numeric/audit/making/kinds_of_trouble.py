@@ -42,15 +42,8 @@ from .planting import (
     times,
 )
 
-STRUCTURE, MODEL, RESIDUAL, RANKS, COUNT, SPACE, SIGNAL = (
-    "structure",
-    "identify",
-    "residual",
-    "window_ranks",
-    "fault_dimension",
-    "fault_space",
-    "reconstruct",
-)
+STRUCTURE, MODEL, RESIDUAL = "structure", "identify", "residual"
+RANKS, COUNT, SPACE, SIGNAL = "window_ranks", "fault_dimension", "fault_space", "reconstruct"
 FAULTS = (STRUCTURE, RESIDUAL, RANKS, COUNT, SPACE, SIGNAL)
 RECORDS = (RESIDUAL, RANKS, COUNT, SPACE, SIGNAL)
 ALL = (*FAULTS, MODEL)

@@ -184,12 +184,16 @@ def residual(
 
 def _found_in(model: StateSpaceModel | HasModel) -> StateSpaceModel:
     """Return the model of a result; InvalidData where it has none."""
-    found: Any = model
-    while found is not None and not isinstance(found, StateSpaceModel):
-        found = found.model
-    if found is None:
+    if (found := model_of(model)) is None:
         raise InvalidData("model: the identification has none, since its order is undecided: state an order")
     return found
+
+
+def model_of(result: StateSpaceModel | HasModel | None) -> StateSpaceModel | None:
+    """Return the model of a result, which is one or has one; None where there is none."""
+    while result is not None and not isinstance(result, StateSpaceModel):
+        result = result.model
+    return result
 
 
 def _fits(y: tuple[int, ...], u: tuple[int, ...], model: StateSpaceModel) -> None:

@@ -95,10 +95,7 @@ def rounding_ranks(r: Array, windows: int, *, unit: float) -> HankelRanks:
     if floor > limit:
         floor = 0.0
     thresholds = tuple(
-        max(
-            ROUNDINGS * unit * float(np.linalg.norm(sigma)),
-            SPREAD * floor * float(np.sqrt(columns) + np.sqrt(sigma.size)),
-        )
+        max(ROUNDINGS * unit * float(np.linalg.norm(sigma)), SPREAD * floor * float(np.sqrt(columns) + np.sqrt(sigma.size)))
         for sigma in values
     )
     deficient = bool(values[-1][-1] <= thresholds[-1])

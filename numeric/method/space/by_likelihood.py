@@ -114,10 +114,7 @@ def _faults(data: Arguments) -> tuple[int | None, str]:
     if data.n_v is None:
         found = fault_dimension(data.r)
         if found.n_v is None:
-            return (
-                None,
-                f"the number of faults is undecided ({found.reason}): give n_v; until then any column will do",
-            )
+            return None, f"the number of faults is undecided ({found.reason}): give n_v; until then any column will do"
         if found.n_v == 0:
             return None, f"no fault was found ({found.reason}), so there is no fault space to speak of"
         faults, source = found.n_v, "n_v from fault_dimension"

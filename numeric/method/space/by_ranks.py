@@ -210,15 +210,9 @@ def _judged(data: Arguments, ladder: Ladder, n_v: int, n_z: int, expected: int) 
     s, lag, longest = data.block_rows, ladder.lag, len(ladder.ranks) - 1
     ranks = f"ranks of R_1 .. R_{longest}: {', '.join(map(str, ladder.ranks[1:]))}"
     if ladder.final_gap == 0:
-        return (
-            False,
-            f"the ranks do not grow: no fault acts, or one that is constant or a sum of few sinusoids ({ranks})",
-        )
+        return False, f"the ranks do not grow: no fault acts, or one that is constant or a sum of few sinusoids ({ranks})"
     if s <= lag:
-        return (
-            False,
-            f"window {s} is not longer than the lag, {lag}: wrong columns are accepted; take block_rows >= {lag + 1} ({ranks})",
-        )
+        return False, f"window {s} is not longer than the lag, {lag}: wrong columns are accepted; take block_rows >= {lag + 1} ({ranks})"
     if ladder.final_gap != n_v:
         return False, (
             f"n_v = {n_v} was {data.told} but the ranks grow by {ladder.final_gap} a sample: the faults are not independent, "
@@ -226,13 +220,7 @@ def _judged(data: Arguments, ladder: Ladder, n_v: int, n_z: int, expected: int) 
             f"or are not as many ({ranks})"
         )
     if longest < data.A.shape[0] + 1 and lag == longest - 1:
-        return (
-            False,
-            f"the ranks have not settled within the {longest} windows that the record is long enough for ({ranks})",
-        )
+        return False, f"the ranks have not settled within the {longest} windows that the record is long enough for ({ranks})"
     if n_z != expected:
-        return (
-            True,
-            f"the conditions leave {counted(n_z, 'column')}, the ranks {expected}; A and C may not fit the residual ({ranks})",
-        )
+        return True, f"the conditions leave {counted(n_z, 'column')}, the ranks {expected}; A and C may not fit the residual ({ranks})"
     return True, f"n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}, lag {lag}, window {s} ({ranks})"

@@ -24,7 +24,7 @@ from ....base.sheets import counted
 from ....base.threads import one_thread
 from ...data.validation import signal, whole
 from ...method.model.models import StateSpaceModel
-from ...method.model.residuals import HasModel, growing_modes
+from ...method.model.residuals import HasModel, growing_modes, model_of
 from ...method.space.shift_isolation import gain_errors
 from ..healthy.unlike_healthy import beyond_healthy_inputs
 from .freezing import frozen_sensors
@@ -151,19 +151,13 @@ def changes_within(
 
 def parameters(model: StateSpaceModel | HasModel | None) -> float:
     """Return how many parameters of the model were fitted for each output, the initial state among them; 0 without a model."""
-    model = _matrices(model)
+    model = model_of(model)
     return 0.0 if model is None else (model.n * (model.p + model.n_u + 1) + model.p * model.n_u) / model.p
-
-
-def _matrices(model: StateSpaceModel | HasModel | None) -> StateSpaceModel | None:
-    while model is not None and not isinstance(model, StateSpaceModel):
-        model = model.model
-    return model
 
 
 def responses(model: StateSpaceModel | HasModel | None, u: Array) -> Array | None:
     """Return what each input alone does to the outputs by the model, (n_u, N, p); None without a model that is stable."""
-    model = _matrices(model)
+    model = model_of(model)
     if model is None or growing_modes(model, len(u)) or not model.is_stable:
         return None
     return np.stack([model.simulate(np.where(np.arange(u.shape[1]) == j, u, 0.0)) for j in range(u.shape[1])])

@@ -119,12 +119,7 @@ def tiles(answer: Answer) -> Iterator[Tile]:
             else f", its angle to the true space below {np.degrees(space.uncertainty.angle()):.2g} degrees with probability 0.95"
         )
         rests = f"Its dimension is n_z = {space.n_z}{sure}."
-        yield Tile(
-            "Fault space",
-            "found" if space.decided else "undecided",
-            rests if space.decided else space.why,
-            space.decided,
-        )
+        yield Tile("Fault space", "found" if space.decided else "undecided", rests if space.decided else space.why, space.decided)
     if answer.explained is not None and answer.by_noise is not None:
         noise = f"Noise alone could explain up to {100 * answer.by_noise:.3g} %."
         if answer.signal is None:

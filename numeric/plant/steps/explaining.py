@@ -14,7 +14,9 @@ One experiment has no parts: it is its own.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
+from itertools import chain
 from typing import TypeVar
 
 import numpy as np
@@ -94,7 +96,7 @@ def _part(
     apart = healthy is not None and record.bounds[number][0] >= healthy
     if apart and healthy is not None:
         experiment = replace(joined(record.part(0, healthy), experiment), offset=record.offset)
-        store = _one_after_the_other(rest.store, healthy, store)
+        store = _one_after_the_other(store.width, chain(rest.store.pieces(0, healthy), store.pieces()))
     return Explained(
         replace(experiment, clock=record.clock),
         measured.operating_point,
@@ -142,10 +144,7 @@ def _residuals(
     first = each[0]
     if len(each) == 1:
         return _with_covariance(first, found, modelled, 1), (first,)
-    store = SampleStore(found.model.p)
-    for one in each:
-        for rows in one.store.pieces():
-            store.append(rows)
+    store = _one_after_the_other(found.model.p, (rows for one in each for rows in one.store.pieces()))
     notes = tuple(dict.fromkeys(note for one in each for note in one.notes))
     several = sum(1 for start, _ in record.bounds if start < modelled)
     return _with_covariance(replace(first, store=store, notes=notes), found, modelled, several), tuple(each)
@@ -172,11 +171,9 @@ def _with_covariance(rest: ResidualSignal, found: MoespModel | ReducedModel, mod
     return replace(rest, covariance=squares / max(modelled - fitted / model.p, 1.0))
 
 
-def _one_after_the_other(before: SampleStore, until: int, after: SampleStore) -> SampleStore:
-    store = SampleStore(before.width)
-    for rows in before.pieces(0, until):
-        store.append(rows)
-    for rows in after.pieces():
+def _one_after_the_other(width: int, pieces: Iterable[Array]) -> SampleStore:
+    store = SampleStore(width)
+    for rows in pieces:
         store.append(rows)
     return store
 
