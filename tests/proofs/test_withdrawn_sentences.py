@@ -447,6 +447,18 @@ def test_docstrings_say_what_is_refused() -> None:
     assert "fewer than n samples" not in text("numeric/method/model/residuals.py")
 
 
+def test_what_is_said_of_lags_constants_and_faults_without_effect() -> None:
+    draw = np.random.default_rng(1)
+    y, u = draw.standard_normal((400, 2)), draw.standard_normal((400, 1))
+    assert numeric.arx_reduction(y, u, order=7, lags=4).order == 7
+    with pytest.raises(fs.errors.InvalidData, match=r"^lags: got 2; order 7 with 2 outputs needs 4 or more: pass more lags$"):
+        numeric.arx_reduction(y, u, order=7, lags=2)  # 400 samples do not "carry 2 lags"
+    assert numeric.fault_dimension(np.hstack([y[:, :1], np.ones((400, 1))])).channel_scales.shape == (2,), "one constant output is taken"
+    assert "NaN, constant or too few" not in text("numeric/method/ranks/rank_gap.py")
+    unseen = numeric.reconstruct_fault(y, np.diag([0.5, 0.3]), [[0.0], [1.0]], [[1.0, 0.0], [0.0, 0.0]], np.zeros((2, 1)))
+    assert unseen.delay is None and "a fault without any effect" not in text("numeric/method/signal/reconstruction.py")
+
+
 def test_what_is_said_of_modes_and_autoregressions() -> None:
     from faultspace.numeric.plant.report.physical import modes
 

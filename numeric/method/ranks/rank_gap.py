@@ -144,7 +144,7 @@ def fault_dimension(r: ArrayLike | Stored, *, block_rows: int | None = None, u: 
     Raises
     ------
     InvalidData
-        NaN, constant or too few samples, u of another length.
+        NaN, too few samples, outputs that are all constant, u of another length.
 
     Examples
     --------
