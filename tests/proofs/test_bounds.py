@@ -491,16 +491,6 @@ def test_a_bound_that_sparse_systems_refute_is_not_offered(
     assert false not in [one.text for one in found.below]
 
 
-@pytest.mark.parametrize("bound", ["n >= p + 2", "rank(G) >= p", "delay_known <= lag + 1", "m >= rank(A) - lag"])
-def test_sparse_systems_of_one_size_give_no_answer_for_those_of_another(bound: str) -> None:
-    box = make_claim("x", {"conclusion": "n >= 0"}).boxes["Q"]
-    node, answers = read(bound), dict[Any, Any]()
-    for number in range(6):
-        batch = sparse_systems._drawn(box, np.random.default_rng((2, number))).part(np.arange(25))
-        failing = sparse_systems._failing([node], batch, np.arange(25), answers).tolist()
-        assert failing == [k for k in range(25) if not evaluate(node, Exactly({"": Subject(batch.case(k))}))]
-
-
 def test_a_bound_says_that_it_is_no_theorem_or_which_one_it_is() -> None:
     found = fs.conjecture("lag", by=["n", "zeta", "normal_rank"], box=SMALL)
     assert all(one.standing.startswith("not refuted up to 6 states by what was tried; ") for one in (*found.above, *found.below))
