@@ -1,12 +1,5 @@
 """Text of others, such as a channel's name, a path or what a claim says, is text wherever it is shown and never a command.
 
-printable     on a terminal, on one line: whatever would move the cursor, change colours or turn the direction of writing is an escape
-lines         the same for several lines
-as_markdown   in Markdown: no link, picture, emphasis or HTML comes of it
-table_cell    in a CSV table: no spreadsheet takes it for a formula
-as_label      in a picture: no mathematics, and no longer than a picture has room for
-policy        the tag of a page that forbids it to fetch anything and to run what is not its own
-
 A name with characters that do not print is one that we give in its printable form everywhere, and take in it.
 """
 

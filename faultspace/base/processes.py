@@ -57,12 +57,7 @@ def clean_environment(passed: Sequence[str] = ()) -> dict[str, str]:
 
 
 def session(
-    command: Sequence[str],
-    *,
-    address_space: int | None = None,
-    data: int | None = None,
-    cpu_seconds: float | None = None,
-    **settings: Any,
+    command: Sequence[str], *, address_space: int | None = None, data: int | None = None, cpu_seconds: float | None = None, **settings: Any
 ) -> subprocess.Popen[bytes]:
     """The program started as the leader of a session; `settings` are those of Popen. Raises OSError where it does not start.
 

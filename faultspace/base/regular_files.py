@@ -1,9 +1,4 @@
-"""This opens files that people name; what may never end, or would wait for somebody who writes, is refused at once.
-
-open_regular     a file as a stream of bytes; pipes, devices and folders are no files
-open_own         the same for a file that we wrote: no link is
-standard_input   the bytes of standard input
-"""
+"""This opens files that people name; what may never end, or would wait for somebody who writes, is refused at once."""
 
 from __future__ import annotations
 

@@ -4,8 +4,6 @@ what a caller has told numpy to do where numbers grow too large or too small (`n
 The matrices here are small, or long products that wait for memory: several threads lose more time by waiting for each other than they
 save. They also split sums at other places, and results are to be the same bytes on every machine that has the same libraries.
 
-one_thread      a context and a decorator: within it the BLAS of numpy and of scipy has one thread, and numpy its own errors of floats
-
 With most libraries the number of threads belongs to the process. It is set when the first of any number of threads of Python enters, and
 given back when the last has left, so that those inside never see another number; what others compute meanwhile has one thread as well.
 Under OpenMP it belongs to each thread, which gives it back by itself. Entries within entries do nothing. A BLAS that threadpoolctl does not

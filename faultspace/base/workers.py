@@ -1,9 +1,5 @@
 """This opens the processes of this machine, or the workers of a Dask cluster, for tasks of joblib.
 
-    pool       the one or the other; the processes end when this one does, even if it is killed
-    unordered  processes whose results come as they are done
-    client     a client of the cluster, for what does without joblib
-
 The cluster is Dask's, through joblib; `distributed` is needed for it alone. Its workers must have this package installed, in the same
 version. Joblib is loaded when the first of them are opened: that takes a tenth of a second, and most commands open none.
 """

@@ -1,10 +1,5 @@
 """Files that are there whole or not at all, in places that somebody else may have prepared: no link is ever followed.
 
-write_text    a text into a file
-whole_file    the same for what is written as a stream of bytes
-new_file      a file that was not there, of a folder of our own
-reason        why the operating system refused, as the end of a sentence
-
 A file has the mode 0644 less what the process's mask takes away, which the operating system applies as it makes the file.
 """
 

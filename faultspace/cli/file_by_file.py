@@ -1,8 +1,4 @@
-"""Answer about one file after the other: a bad one is reported and the rest is still done.
-
-FileAnswer        what is known about a file: a heading, and the record with its `sheet` and `to_json`
-answer_each   the command's body: answers, printed or as JSON; the largest exit code
-"""
+"""Answer about one file after the other: a bad one is reported and the rest is still done."""
 
 from __future__ import annotations
 

@@ -1,9 +1,5 @@
 """Failures that are known, with their reasons.
 
-ExpectedFailure    turns red when the check passes
-expected_in        those that a file lists
-as_expected        a result beside what was expected of it
-
 A file has a failure a line, `NAME: REASON`; empty lines, and lines that begin with #, are nobody's. NAME is a slug, slug[vector] or
 slug[vector]-function, or a pattern of these with * and ?.
 """

@@ -47,14 +47,7 @@ def left_open(measured: Measured, made: Modelled, told: Told) -> Identification:
 
 
 def answered(
-    plant: Explained,
-    made: Modelled,
-    told: Told,
-    onsets: Sequence[Begun],
-    found: Counted,
-    space: Space,
-    causes: Causes,
-    signals: Signals,
+    plant: Explained, made: Modelled, told: Told, onsets: Sequence[Begun], found: Counted, space: Space, causes: Causes, signals: Signals
 ) -> Identification:
     """Return the answer; of several experiments each has its own record, residual, onset, changes and signal, and the whole has none."""
     shared = _shared(made, told, found, space, causes)

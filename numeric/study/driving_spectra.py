@@ -2,12 +2,6 @@
 
 A spectrum is a function of angles (M,) in (0, pi), radians a sample, to Hermitian matrices (M, k, k) with the autocovariance
 R(l) = 1/(2 pi) integral of S(w) exp(i w l); white noise of covariance R has the constant spectrum R. Units are those of the squared signal.
-
-Spectra         of the input and of what disturbs the outputs
-white           constant
-filtered        white noise through a rational filter, channel by channel
-through         H S H* for a system H
-total           the sum
 """
 
 from __future__ import annotations

@@ -248,12 +248,7 @@ Result = TypeVar("Result")
 
 
 def done_by(
-    function: Callable[..., Result],
-    tasks: Tasks,
-    *,
-    worth: int,
-    jobs: int | None = None,
-    cluster: str | None = None,
+    function: Callable[..., Result], tasks: Tasks, *, worth: int, jobs: int | None = None, cluster: str | None = None
 ) -> Iterator[tuple[int, Result | Died]]:
     """Yield the number of each task with function(*task), as it comes; `jobs` processes (None: all cores), or the workers of the Dask
     scheduler at the address `cluster`.

@@ -68,7 +68,6 @@ def test_containment_is_one_sided() -> None:
     assert containment_distance(V, U) == 1.0
     assert subspace_distance(U, V) == subspace_distance(V, U) == 1.0
     comparison = compare_subspaces(U, V)
-    assert not comparison.same_dimension and "different dimensions" in str(comparison)
     assert comparison.dimensions == (2, 4) and comparison.angles.size == 2
 
 

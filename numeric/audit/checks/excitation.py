@@ -1,7 +1,5 @@
 """These checks use signals that do not excite: what the data cannot tell must not be told.
 
-    checks          ranks of windows are what they are; n_v is free; a fault space, a model must be refused
-
 A fault that is constant, a sine or in proportion to another shows fewer independent faults than there are: problem (11) then has solutions
 that are none of the system's. An input that is constant or one sine determines no system of order two: other B, D and initial states give
 the same outputs. So do other columns of B and D where an input is another one times a number, or the other one a sample later. All of it is
@@ -27,7 +25,7 @@ from .refusals import refuses
 
 
 def checks() -> Iterator[Check]:
-    """This yields all checks of the module."""
+    """Yield that ranks of windows are what they are; that n_v is free; that a fault space, a model must be refused."""
     for vector in shipped("unexciting"):
         effect = "wrong ranks of windows where a fault does not excite: it is taken for one that does"
         ranks = partial(window_ranks_off, vector)

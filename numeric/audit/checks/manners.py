@@ -1,8 +1,4 @@
-"""Equal questions get equal answers, and the caller's arrays come back as they were.
-
-checks      deterministic, inputs-untouched: for every function, on one vector each
-questions   those vectors, as arguments;   copies, answered, equal    of arguments, an answer or none, of answers
-"""
+"""Equal questions get equal answers, and the caller's arrays come back as they were."""
 
 from __future__ import annotations
 
@@ -20,7 +16,7 @@ from ..vectors.shipped_vectors import shipped
 
 
 def checks() -> Iterator[Check]:
-    """This yields all checks of the module."""
+    """Yield "deterministic" and "inputs-untouched" for every function, on one vector each."""
     for function, vector, arguments in questions():
         for slug, effect, severity, measure in (
             ("deterministic", "no result can be reproduced", Severity.NUISANCE, _deterministic),
@@ -30,7 +26,7 @@ def checks() -> Iterator[Check]:
 
 
 def questions() -> Iterator[tuple[str, str, tuple[Any, ...]]]:
-    """Each is (function, vector, arguments)."""
+    """Yield the function, the vector and the arguments of each of these questions."""
     model, fault, system = (shipped(kind)[0] for kind in ("identification", "faults", "structure"))
     r, A, F, C, G = (floats(M) for M in (fault.r, fault.system.A, fault.system.F, fault.system.C, fault.system.G))
     y, u = (floats(M) for M in with_input(fault.r, fault.system, fault.view.scale))

@@ -1,9 +1,4 @@
-"""How far rounding may carry a model from the exact one: the largest of four routes, each a worst case to first order.
-
-model_bounds     bounds on what no state basis changes, as the vectors hold them
-bounded          a vector with those of its whole record
-telling          the same, without those that ask for nothing
-"""
+"""How far rounding may carry a model from the exact one: the largest of four routes, each a worst case to first order."""
 
 from __future__ import annotations
 

@@ -1,14 +1,7 @@
 """Which checks ask for what a package says that it does not do: they are asked, and counted apart.
 
-    with_feedthrough               of plants with a D
-    more_block_rows_than_states    of windows with no more block rows than the order
-    coloured                       of poles where the disturbance is not white
-    from_a_state                   of records that do not begin at rest
-    not_over                       of plants whose impulse response is not over after so many samples
-    not_square                     of systems with more or fewer outputs than inputs
-
-Each gives patterns SLUG/VECTOR -> reason for an adapter's NOT_PROMISED. They are made of the default vectors; those of another seed bear
-the same names, and are of the same kinds.
+Each function gives patterns SLUG/VECTOR -> reason for an adapter's NOT_PROMISED. They are made of the default vectors; those of another
+seed bear the same names, and are of the same kinds.
 """
 
 from __future__ import annotations

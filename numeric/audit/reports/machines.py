@@ -1,8 +1,4 @@
-"""A result for machines: a badge to stand on a page of a project, and JUnit's XML, which continuous integration reads.
-
-endpoint   JSON that shields.io makes a picture of;   svg: the picture itself, with nothing from anywhere else
-junit_xml  a test suite of the results: a failure for what was wrong, an error for what broke, skipped for what is free or expected
-"""
+"""A result for machines: a badge to stand on a page of a project, and JUnit's XML, which continuous integration reads."""
 
 from __future__ import annotations
 
@@ -63,7 +59,8 @@ _NO_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def junit_xml(adapter: str, results: Sequence[CheckResult]) -> str:
-    """Return the XML, which ends with a line feed."""
+    """Return a test suite of the results, in XML that ends with a line feed: a failure for what was wrong, an error for what broke, skipped
+    for what is free or expected."""
     cases = [_case(one, adapter) for one in results]
     count: Callable[[str], str] = lambda tag: str(sum(one.find(tag) is not None for one in cases))  # noqa: E731
     totals = {"tests": str(len(cases)), "failures": count("failure"), "errors": count("error"), "skipped": count("skipped")}

@@ -1,9 +1,4 @@
-"""What a result depends on beside the implementation: by these it can be made again.
-
-versions   of the kit, its vectors, Python, numpy, scipy, BLAS, and the platform
-kit        that of faultspace
-vectors_digest   SHA-256 of the vectors that come with the package
-"""
+"""What a result depends on beside the implementation: by these it can be made again."""
 
 from __future__ import annotations
 
@@ -24,7 +19,7 @@ from ..vectors.shipped_vectors import FORMAT
 
 @cache
 def vectors_digest() -> str:
-    """Return the digest over the names and contents of all files of the vectors, in the order of their names."""
+    """Return the SHA-256 digest over the names and contents of all files of the vectors, in the order of their names."""
     digest = hashlib.sha256()
     for file in sorted(files("faultspace.numeric.audit.vectors").joinpath("data").iterdir(), key=lambda one: one.name):
         if file.name.endswith(".json"):
@@ -42,7 +37,7 @@ def kit() -> str:
 
 @one_thread()
 def versions() -> dict[str, Any]:
-    """Return what is ready for JSON."""
+    """Return the versions of the kit, its vectors, Python, numpy, scipy and BLAS, and the platform, ready for JSON."""
     libraries = [
         {name: one.get(name) for name in ("internal_api", "version", "architecture")}
         for one in threadpool_info()

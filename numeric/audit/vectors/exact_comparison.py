@@ -1,14 +1,4 @@
-"""Float answers read as the rationals that they are, so that a difference from the truth is theirs and not the comparison's.
-
-lifted                     a float matrix over Q
-markov                     D, CB, CAB, ... over Q
-polynomial_from_the_top    the coefficients of det(zI - A), of z^n, ..., z, 1, over Q
-transfer                   D + C (zI - A)^-1 B at a rational z
-poles                      eigenvalues of a rational matrix, from certified enclosures
-roots                      the same for a polynomial
-distances                  |got - exact| entry by entry, a float each
-matched                    (got index, exact index) of the nearest pairing
-"""
+"""Float answers read as the rationals that they are, so that a difference from the truth is theirs and not the comparison's."""
 
 from __future__ import annotations
 

@@ -1,13 +1,4 @@
-"""These are rational matrices as the vectors hold them, and the one way in which they become floats.
-
-matrix      from strings, integers or Fractions
-residual_system   A, F, C, G of the file of a vector
-fractions   the entries
-floats      each entry correctly rounded (to nearest, ties to even): the stated rounding
-roundings   which matrices became which arrays
-scaled      columns in other units
-signs       +-1 by a linear congruential generator that any language can run
-"""
+"""These are rational matrices as the vectors hold them, and the one way in which they become floats."""
 
 from __future__ import annotations
 

@@ -8,9 +8,6 @@ own past, and not used as it is, keeps the errors of the ARX model, which are co
 What feedback does. An ARX model predicts y(k) from all that came before, so that its plant stays consistent where u(k) has no part in it of
 e(k), that is, where the loop has a delay [L99, ch. 13]; the standard errors are then those of an open loop, which are too small. Without
 a delay e(k) is in u(k), D is wrong, and nothing in the data shows it, since e is uncorrelated with u(k) by construction.
-
-feedback_chance     the probability, in open loop, of correlations as large as those of the record
-one_step_errors     the errors of an ARX model's predictions
 """
 
 from __future__ import annotations
@@ -31,7 +28,8 @@ HEARD = 1 << 13
 
 
 def feedback_chance(records: Sequence[tuple[Array, Array]], arx: Arx, lags: int) -> float:
-    """Return that probability for stretches (y, u) of a record, or of several, and the ARX model of them; 1 where they are too short.
+    """Return the probability, in open loop, of correlations as large as those of stretches (y, u) of a record, or of several, and the ARX
+    model of them; 1 where they are too short.
 
     y (N, p) and u (N, n_u) are in the units of the model, and `lags` is m.
     """

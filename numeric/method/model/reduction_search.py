@@ -2,9 +2,6 @@
 
 What a flat weight cannot tell apart the true one can: the ladder may merge all starts into one valley. So some starts are followed under
 the true weight at once, and models of one state more, in which all modes of the plant and a spare one have found a place, lose one.
-
-minimum     T and cost at one order
-minima      the same at orders 0, 1, .., as far as a criterion improves
 """
 
 from __future__ import annotations
@@ -36,9 +33,8 @@ class Found:
 
 
 def minimum(windows: ArxWindows, arx: Arx, problem: Reduction, coarse: Reduction, n: int) -> Found:
-    """Return the least that was found. The search uses the `coarse` problem of few angles, and only its end is the problem itself.
-
-    Raises InvalidData where there is nothing to start from.
+    """Return T and cost of the least that was found at one order. The search uses the `coarse` problem of few angles, and only its end is
+    the problem itself. Raises InvalidData where there is nothing to start from.
     """
     rungs = list(ladder(coarse, arx.disturbance(coarse.angles)))
     begun = list(starts(windows, arx, rungs[0], n))

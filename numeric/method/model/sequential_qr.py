@@ -6,10 +6,6 @@ factorisation, the L of an LQ one.
 
 Neighbouring windows share most of their samples. So TOGETHER windows are taken as one longer one: the factor of the longer ones has
 little more columns and an eighth of the rows, each window is a choice of its columns, and the factor of these choices is R.
-
-append_rows         a triangular factor after more rows
-SequentialQR        takes a signal in pieces of any length, gives R
-triangular          the upper triangular factor of stacked rows, with a nonnegative diagonal
 """
 
 import numpy as np

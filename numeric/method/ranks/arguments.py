@@ -1,10 +1,4 @@
-"""This is a residual with the A and C of its model, checked once for everything that estimates faults from them.
-
-Arguments    r (N, p), A (n, n), C (p, n), n_v or None, block_rows s, and the longest window that the record and the
-order suggest
-arguments    the check: InvalidData says what was got, what is needed, what to try
-fitting      r, A and C alone; shaped: the same for a stretch of r, which may be zero; not_zero: the refusal of an r that is
-"""
+"""This is a residual with the A and C of its model, checked once for everything that estimates faults from them."""
 
 from __future__ import annotations
 

@@ -1,9 +1,5 @@
 """Tell whether a record obeys laws without noise: the way of ranks is then exact, and any likelihood of noise has nothing to hold on to.
 
-    obeys_exactly   whether the windows of outputs and inputs together lose more rank, to rounding, than those of the inputs alone
-    driven_exactly  whether faults drive such a record: then the outputs add to that rank with every sample of a window, without them only
-                    as much as there are states
-
 A system with fewer faults than outputs has kernel rows N(q) [y; u] = N_y(q) w ([W91]). Without the noise w they are exact, so that windows
 longer than the lag do not have full rank; any noise in every output fills them. A rank is decided by what rounding can do (`hankel_ranks`).
 """

@@ -4,9 +4,6 @@ Rows of total degree d + 1 that explain no more than those of degree d are these
 So at q = a they depend on each other: the combination that vanishes there is divided by q - a, and takes the place of a longest row. A
 course upwards ends in a local minimum in some of a hundred records, which then looks like an order that is too low; random starts find it
 from there (4 of 8 in one such record, 1 of 8 in another), and this start is one.
-
-    from_above   the fits of a course, each the likelier of itself and of one that begins from the fit above
-    divided      rows of one degree less
 """
 
 from __future__ import annotations

@@ -125,13 +125,7 @@ def fault_space_by_rows(
 
 @one_thread()
 def identified_fault_space(
-    y: ArrayLike | Experiments,
-    u: ArrayLike | None,
-    model: ReducedModel,
-    *,
-    n_v: int,
-    noise_level: ArrayLike | None = None,
-    draws: int = 0,
+    y: ArrayLike | Experiments, u: ArrayLike | None, model: ReducedModel, *, n_v: int, noise_level: ArrayLike | None = None, draws: int = 0
 ) -> FaultSpaceEstimate:
     """Estimate the fault space of outputs y and inputs u for a model that `arx_reduction` found in such data, its error in the angle.
 
@@ -204,10 +198,7 @@ def _with_order(found: FaultSpaceEstimate, model: ReducedModel) -> FaultSpaceEst
             found, finding=f"if the order is {found.n}, as given: {found.finding}; {doubt}, and a state too many is a zero too many"
         )
     return replace(
-        found,
-        decided=False,
-        margin=last.worth,
-        finding=f"{found.finding}; but {doubt}, and a state too many is a zero too many",
+        found, decided=False, margin=last.worth, finding=f"{found.finding}; but {doubt}, and a state too many is a zero too many"
     )
 
 

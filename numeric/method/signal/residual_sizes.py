@@ -1,9 +1,4 @@
-"""This tells how large a residual of any length is, and the stretch of it that is held in memory to count faults.
-
-residual_sizes  the size of each channel, of the whole and of the samples that the model is from, and the energy of each part
-ResidualSizes   what it returns
-loudest         where the record has most of the residual's energy
-"""
+"""This tells how large a residual of any length is, and the stretch of it that is held in memory to count faults."""
 
 from __future__ import annotations
 

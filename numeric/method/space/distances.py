@@ -28,30 +28,28 @@ from ....base.threads import one_thread
 DEPENDENT = 1e-12
 
 
-@dataclass(frozen=True)
-class SubspaceComparison:
-    """The comparison sets span U and span V side by side; the distances are sines, and `angles` are radians in ascending order."""
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """The dimensions of span U and span V, and the `angles` between them: radians, in ascending order."""
 
     dimensions: tuple[int, int]
     angles: Array
-    first_in_second: float
-    second_in_first: float
 
     @property
-    def same_dimension(self) -> bool:
-        """Say whether the two-sided distance can be below one at all."""
-        return self.dimensions[0] == self.dimensions[1]
+    def contained(self) -> float:
+        """Return the sine of the largest angle from U to V, 1 where U has more dimensions."""
+        k, other = self.dimensions
+        return 1.0 if k > other else float(np.sin(self.angles.max(initial=0.0)))
 
     @property
     def two_sided(self) -> float:
         """Return the larger of both containment distances: |P_U - P_V| in the spectral norm."""
-        return max(self.first_in_second, self.second_in_first)
+        k, other = self.dimensions
+        return 1.0 if k != other else self.contained
 
-    def __str__(self) -> str:
-        largest = np.degrees(self.angles[-1]) if self.angles.size else 0.0
-        same = "" if self.same_dimension else "; different dimensions, so the two-sided distance is 1 whatever the angles"
-        first, second = self.dimensions
-        return f"dimensions {first} and {second}, largest principal angle {largest:.3g} degrees{same}"
+    def error(self, missing: int, most: int) -> float:
+        """Return the norm of the angles, with so many right ones `missing`, over that of `most` right angles, 1 at least."""
+        return float(np.sqrt((np.sum(self.angles**2) + missing * np.pi**2 / 4) / max(most, 1)) / (np.pi / 2))
 
 
 def principal_angles(U: object, V: object) -> Array:
@@ -67,7 +65,7 @@ def containment_distance(U: object, V: object) -> float:
     """Return the sine of the largest angle from span U to span V: 0 iff U lies in V, 1 if dim U > dim V. Raises as
     `principal_angles`.
     """
-    return compare_subspaces(U, V).first_in_second
+    return compare_subspaces(U, V).contained
 
 
 @one_thread()
@@ -99,15 +97,12 @@ def subspace_distance(U: object, V: object) -> float:
     return compare_subspaces(U, V).two_sided
 
 
-def compare_subspaces(U: object, V: object) -> SubspaceComparison:
-    """Compare dimensions, angles and both containments of span U (d, k) and span V (d, l). Raises as `principal_angles`."""
+def compare_subspaces(U: object, V: object) -> Compared:
+    """Compare dimensions and angles of span U (d, k) and span V (d, l). Raises as `principal_angles`."""
     first, second = _orthonormal(U, "U"), _orthonormal(V, "V")
     if len(first) != len(second):
         raise InvalidData(f"U, V: got {len(first)} and {len(second)} rows; subspaces of one space have the same number")
-    k, other = first.shape[1], second.shape[1]
-    angles = _angles(first, second)
-    largest = float(np.sin(angles[-1])) if angles.size else 0.0
-    return SubspaceComparison((k, other), angles, 1.0 if k > other else largest, 1.0 if other > k else largest)
+    return Compared((first.shape[1], second.shape[1]), _angles(first, second))
 
 
 def containment_error(truth: object, estimate: object) -> float:
@@ -117,7 +112,7 @@ def containment_error(truth: object, estimate: object) -> float:
     """
     compared = compare_subspaces(truth, estimate)
     k, other = compared.dimensions
-    return float(np.sqrt((np.sum(compared.angles**2) + max(k - other, 0) * np.pi**2 / 4) / max(k, 1)) / (np.pi / 2))
+    return compared.error(max(k - other, 0), k)
 
 
 def two_sided_error(truth: object, estimate: object) -> float:
@@ -128,7 +123,7 @@ def two_sided_error(truth: object, estimate: object) -> float:
     """
     compared = compare_subspaces(truth, estimate)
     k, other = compared.dimensions
-    return float(np.sqrt((np.sum(compared.angles**2) + abs(k - other) * np.pi**2 / 4) / max(k, other, 1)) / (np.pi / 2))
+    return compared.error(abs(k - other), max(k, other))
 
 
 def _angles(first: Array, second: Array) -> Array:

@@ -260,12 +260,7 @@ def _kept_at_half_width(healthy: HealthyReference, record: Spectra, where: NDArr
 
 @one_thread()
 def fault_direction_against_healthy(
-    r: ArrayLike,
-    healthy: HealthyReference,
-    *,
-    A: ArrayLike | None = None,
-    C: ArrayLike | None = None,
-    u: ArrayLike | None = None,
+    r: ArrayLike, healthy: HealthyReference, *, A: ArrayLike | None = None, C: ArrayLike | None = None, u: ArrayLike | None = None
 ) -> FaultDirection:
     """Return the column [F; G] and the signal of the one fault in a residual.
 

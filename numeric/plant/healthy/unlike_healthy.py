@@ -1,9 +1,5 @@
 """What the tests of means and spectra do not look at, and a plot would show: reasons not to say 0, or not to count, beside healthy samples.
 
-beyond_healthy_inputs   the inputs are louder, or elsewhere, than while healthy
-beyond_healthy_levels   what is left of that for means, where the errors of the model's static gain are known
-unlike_healthy          a spike, a sensor that is stuck or dead
-
 They make an answer undecided and never decide one. What is a spike, or too long a run of equal values, follows from the level of the
 count: the largest of N values is held against the largest of K healthy ones, where sizes, and lengths of runs, have tails that fall no
 slower than an exponential. For such tails of scale s the largest of K independent values exceeds s (log K - log log(2 / level)) but for a
@@ -34,7 +30,7 @@ QUIET = 0.5
 
 
 def beyond_healthy_inputs(before: Array, u: Array, names: Sequence[str]) -> str:
-    """Say why the model's error need not be as the healthy samples show it, or nothing."""
+    """Say why the model's error need not be as the healthy samples show it, the inputs being louder, or elsewhere, or nothing."""
     middle, deviations = before.mean(axis=0), before.std(axis=0)
     sizes = np.where(deviations > 0.0, deviations, 1.0)
     power, spread = np.mean((u - middle) ** 2, axis=0), u.std(axis=0)

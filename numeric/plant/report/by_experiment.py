@@ -1,10 +1,4 @@
-"""This is what `identify` says and writes of each experiment, where a record holds several, and of the one where it holds one.
-
-experiment_lines   a table of all experiments, in lines of Markdown, where there are several
-experiments        the same in JSON, one entry an experiment
-numbered           the samples of all experiments, with the number of the experiment, of the sample in it, and of the onsets before
-own_fit            how much of each output of an experiment the model explains
-"""
+"""This is what `identify` says and writes of each experiment, where a record holds several, and of the one where it holds one."""
 
 from __future__ import annotations
 

@@ -1,9 +1,4 @@
-"""This hands an Identification over for other programs.
-
-handed_on   the model, for python-control and scipy.signal
-to_mat      a MAT file with A, B, C, D, F, G, names and sample time
-to_pandas   a data frame with the channels, the residual and the fault signal, by time
-"""
+"""This hands an Identification over for other programs."""
 
 from __future__ import annotations
 
@@ -27,7 +22,7 @@ UNKNOWN = -1.0  # the sample time that MATLAB's `ss` takes where it is not state
 
 
 def handed_on(answer: Answer) -> StateSpaceModel:
-    """Return the model. Raises InvalidData where there is none."""
+    """Return the model, for what python-control and scipy.signal make of it. Raises InvalidData where there is none."""
     if answer.model is None:
         raise InvalidData("there is no model to hand on, since the order is undecided: state an order")
     return answer.model.model

@@ -1,10 +1,5 @@
 """This tells poles in the units of the plant: natural frequency in hertz, damping, and time constant in seconds.
 
-Mode            one real pole, or one pair
-modes           the modes of poles at a sample time
-mode_lines      the same in words, for the summary
-physical        the same as JSON has it, with the Nyquist frequency
-
 A pole z of a sampled system is exp(s dt) of a pole s = ln(z) / dt of the plant, the principal value of the logarithm: faster oscillations
 than half the sampling rate, the Nyquist frequency, look like slower ones. The natural frequency is |s| / (2 pi), the damping -Re s / |s|,
 and the time constant -1 / Re s, negative where the mode grows. A negative real pole turns its sign at every sample and has no course
