@@ -14,7 +14,7 @@ from functools import partial
 from rich.console import Console
 from rich.text import Text
 
-from ..proofs.verdict.cards import Card, card, hold
+from ..proofs.verdict.cards import Believed, Card, card, hold
 from ..proofs.verdict.verdicts import ClaimResult, Verdict
 from .consoles import paragraph
 
@@ -52,9 +52,9 @@ def _wrapped(text: str, label: str, width: int) -> list[str]:
     return textwrap.wrap(text, width, initial_indent=label, subsequent_indent=" " * len(label), break_on_hyphens=False)
 
 
-def print_card(console: Console, result: ClaimResult) -> None:
+def print_card(console: Console, result: ClaimResult, believed: Believed) -> None:
     """Print the card of a claim."""
-    for line in card_lines(card(result), hold(result), min(WIDTH, console.width)):
+    for line in card_lines(card(result, believed), hold(result), min(WIDTH, console.width)):
         style = "bold" if line.startswith(result.claim.id) else STYLES[result.verdict] if line.startswith("Verdict:") else ""
         console.print(Text(line, style=style), soft_wrap=True)
     console.print()

@@ -98,7 +98,7 @@ def _print(report: Report, *, pages: bool, verbose: bool) -> None:
         print_sentences(console, report.claims)
     else:
         for claim in report.claims:
-            print_card(console, claim)
+            print_card(console, claim, report.believed)
             if verbose:
                 print_page(console, claim, [row for row in report.hypotheses if row.claim == claim.claim.id])
     if report.corpus and verbose:

@@ -23,6 +23,7 @@ from .verdicts import ClaimResult, ReadingResult, Report, Verdict
 
 MOST_NAMED = 3  # theorems that a card names
 Put = Callable[[str, Any], None]
+Believed = Mapping[str, str | None] | None  # of a Report
 
 
 @dataclass(frozen=True)
@@ -62,8 +63,11 @@ class Card:
         return asdict(self) | {"wrong": [asdict(one) for one in self.wrong], "why": list(self.why)}
 
 
-def card(result: ClaimResult) -> Card:
-    """Return the card of a claim. Its sentences are withheld where a verdict is not the expected one: then it says which."""
+def card(result: ClaimResult, believed: Believed = None) -> Card:
+    """Return the card of a claim; `believed` names the programs that checked theorems.
+
+    Its sentences are withheld where a verdict is not the expected one: then it says which.
+    """
     claim = result.claim
     words = sentences().get(claim.id) or {"verdict": f"{result.verdict.meaning}.", "instead": ""}
     if result.as_expected:
@@ -76,7 +80,7 @@ def card(result: ClaimResult) -> Card:
         different = [f"{one.reading.id} is {one.outcome.verdict}, {one.expected} expected" for one in others]
         different = different or [f"the claim is {result.verdict}, {result.expected} expected"]
         verdict, instead, wrong = f"NOT as expected: {'; '.join(different)}.", "", ()
-    why = tuple(_reasons(result))
+    why = tuple(_reasons(result, believed))
     return Card(claim.id, claim.group, claim.reference, claim.statement, str(result.verdict), verdict, wrong, instead, why)
 
 
@@ -84,7 +88,7 @@ def with_cards(report: Report) -> dict[str, Any]:
     """Return what the report is in JSON, with the `card` of each claim."""
     found = report.to_json()
     for said, result in zip(found["claims"], report.claims, strict=True):
-        said["card"] = card(result).to_json()
+        said["card"] = card(result, report.believed).to_json()
     return found
 
 
@@ -249,7 +253,7 @@ def _without_outputs(system: ResidualSystem) -> dict[str, Any]:
     return {"x0": _text(one[: system.n]), "v0": _text(one[system.n :])}
 
 
-def _reasons(result: ClaimResult) -> list[str]:
+def _reasons(result: ClaimResult, believed: Believed) -> list[str]:
     """Return why to believe the verdicts: theorems, certificates, and where only no counterexample was found."""
     readings = result.readings
     names = list(dict.fromkeys(name for one in readings for name in one.locks))
@@ -257,7 +261,8 @@ def _reasons(result: ClaimResult) -> list[str]:
     reasons = []
     if names:
         more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
-        how = "that Rocq has checked, without axioms" if checked else "that Rocq checks with --rocq; in this run it has not"
+        by = f" {believed['version']} ({believed['coqc']})" if believed else ""
+        how = f"that Rocq{by} has checked, without axioms" if checked else "that Rocq checks with --rocq; in this run it has not"
         reasons.append(f"{counted(len(names), 'theorem')} {how}: {', '.join(names[:MOST_NAMED])}{more} (proofs/theory/headlines).")
     accepted = len({one for reading in readings for one in reading.outcome.all_decided})
     if accepted:
