@@ -32,7 +32,7 @@ from faultspace.exact.limits.moments import Covariances, window_covariances
 from faultspace.exact.limits.process import JointProcess, joint_process
 from faultspace.exact.system.windows import observability_matrix
 from faultspace.proofs.trust import checker
-from faultspace.proofs.trust import limit_certificates as make
+from faultspace.proofs.trust.limit_certificates import Certified
 
 DENSE = 30
 STEPS = ("Lyapunov", "dense", "windows", "past inputs", "past outputs", "output error", "MOESP", "certified", "checked")
@@ -83,8 +83,8 @@ def measured(given: Experiment) -> dict[str, Any]:
     timed("MOESP", lambda: by_moesp(blocks, observability_matrix(residual, given.s), residual.p))
     total = sum(value for name, value in seconds.items() if name != "dense")
     limits = limit(given)
-    makers = (make.past_input_limit, make.past_input_and_output_limit, make.output_error_inputs, make.moesp_inputs)
-    certificates = timed("certified", lambda: [maker(limits) for maker in makers])
+    makers = (Certified.past_input_limit, Certified.past_input_and_output_limit, Certified.output_error_inputs, Certified.moesp_inputs)
+    certificates = timed("certified", lambda: [maker(Certified(limits)) for maker in makers])
     try:
         timed("checked", lambda: [checker.verify(certificate) for certificate in certificates])
     except checker.Rejected:  # for work, where the checker's own bound is reached

@@ -3,7 +3,7 @@
 InvalidInput    input that cannot be used: the text is one line, what was got and what is needed
 InvalidData     the same of measured data
 Malformed       a certificate that does not parse; Rejected: one that does not prove its statement; both are the checker's own
-Unprovable      what `certify` was asked for is not so
+Unprovable      what `certify` was asked for is not so, or has no witness
 
     >>> import faultspace as fs
     >>> try:

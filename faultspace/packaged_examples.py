@@ -9,6 +9,7 @@ content        the bytes of one, by its name with the prefix
 
 from __future__ import annotations
 
+from difflib import get_close_matches
 from importlib import resources
 
 from .base.errors import InvalidInput, shorten
@@ -46,6 +47,8 @@ def content(name: str) -> bytes:
     """Return the file behind `example:NAME`. Raises InvalidInput for a name that is none."""
     stem = name.removeprefix(PREFIX)
     if stem not in DESCRIPTIONS | EXPERIMENTS | CLAIMS:
-        raise InvalidInput(f"got example {shorten(stem)}, expected one of {', '.join(DESCRIPTIONS | EXPERIMENTS | CLAIMS)}")
+        known = [*DESCRIPTIONS, *EXPERIMENTS, *CLAIMS]
+        near = get_close_matches(stem, known, n=1, cutoff=0.0)[0]
+        raise InvalidInput(f"got example {shorten(stem)}, expected one of {', '.join(known)}; try: {PREFIX}{near}")
     ending = "toml" if stem in CLAIMS else "json"
     return resources.files(__package__).joinpath("examples", f"{stem}.{ending}").read_bytes()

@@ -1,8 +1,9 @@
 """Claims, verdicts and certificates: what the review states of the paper, what is true of it, and what proves it.
 
-A verdict is computed by a run, never stored by hand. The certificates are decided by `trust/checker.py`, which imports nothing but Python's
-standard library; their format is `trust/FORMAT.md`. Everything else here may import `faultspace.exact`, and modules with `cross` in their
-name `faultspace.numeric`. The public names are loaded when they are first asked for; `__init__.pyi` lists them with their modules.
+A verdict is computed by a run, never stored by hand. The certificates are decided by `trust/checker.py` and the three files whose names
+begin with `checker_`, which import nothing but Python's standard library and those before them; their format is `trust/FORMAT.md`.
+Everything else here may import `faultspace.exact`. The public names are loaded when they are first asked for; `__init__.pyi` lists them
+with their modules.
 """
 
 import lazy_loader

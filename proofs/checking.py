@@ -111,8 +111,8 @@ class CheckedFile(Shown):
 def check(certificate: Mapping[str, Any] | str | os.PathLike[str], systems: Any = (), *, rocq: bool = False) -> Checked:
     """Decide what a certificate proves, by the checker, which trusts nothing that the certificate says.
 
-    `faultspace check` does the same with files. The format of certificates is in proofs/trust/FORMAT.md; the checker there is one file that
-    can be copied alone.
+    `faultspace check` does the same with files. The format of certificates is in proofs/trust/FORMAT.md; the checker there is four files
+    that can be copied, the first of which, alone, decides ranks and behaviours over the rational numbers.
 
     Parameters
     ----------

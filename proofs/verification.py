@@ -9,6 +9,7 @@ import os
 import time
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 
 from ..base.aside import aside
@@ -21,7 +22,7 @@ from .adversary.catalogue import WITHOUT
 from .deciding import Check, Without, decided
 from .hypotheses import ablations
 from .kept_answers import keeping
-from .rocq.build import BrokenTheory, NoRocq, NotProved, believed
+from .rocq.build import BrokenTheory, NoRocq, NotProved, believed, found, kept_theory
 from .rocq.locks import held
 from .rocq.sources import sources
 from .rocq.theorems import Theorems
@@ -41,12 +42,13 @@ def verify(
     jobs: int = -1,
     scheduler: str | None = None,
     resume: str | os.PathLike[str] | None = None,
+    rocq: bool = False,
     on_progress: Progress | None = None,
 ) -> Report:
     """Decide every claim of the ledger, or those with the ids `claims`, now: each reading gets a verdict and the evidence it rests on.
 
-    Most claims take tens of seconds, because the systems and certificates that their readings rest on are made anew; the one of the example
-    below needs less than a second. The claims are those of [G25].
+    Most claims take seconds, or tens of them on a busy machine, because the systems and certificates that their readings rest on are made
+    anew; the one of the example below needs less than a second. The claims are those of [G25].
 
     Parameters
     ----------
@@ -59,6 +61,9 @@ def verify(
         The address of a Dask scheduler, whose workers do the work then; they need this package in the same version.
     resume : str or path, optional
         A file in which each answer is kept as it comes, so that the same call goes on where it was stopped; certificates are checked again.
+    rocq : bool
+        Compile the theorems where they are not compiled yet, which takes minutes, so that Rocq can check them. Without it Rocq checks them
+        where an earlier run has compiled them.
     on_progress : callable, optional
         Called as (stage, done, total), also from the thread that waits for Rocq.
 
@@ -109,14 +114,14 @@ def verify(
     with shared(scheduler), keeping(None if resume is None else Path(resume), effort) as kept:
         if kept.count:
             report(f"{counted(kept.count, 'answer')} of an earlier run", 0, total)
-        rocq = aside(_theorems, chosen, report)  # coqc is a process of its own, for which this one has not to wait
+        machine_part = aside(partial(_theorems, rocq=rocq), chosen, report)  # coqc is a process of its own, which works beside this one
         attacks = attacking({claim.id for claim in chosen}, effort, jobs, report, known=kept.attack, on_record=kept.note_attack)
         targets = [f"{claim.id}.{reading.id}" for claim in chosen for reading in claim.readings]
         targets += [f"{WITHOUT}{one.name}: {hypothesis}" for one in experiments for hypothesis in one.hypotheses]
         attacks = looked_at_again(attacks, targets, jobs)
         tasks: list[Check | Without] = [*checks, *(Without(one.name) for one in experiments)]
         answers = decided(bench, tasks, elsewhere=scheduler is not None, kept=kept)
-        machine = rocq.result()
+        machine = machine_part.result()
     results: list[ClaimResult] = []
     for claim in chosen:
         readings = []
@@ -128,8 +133,8 @@ def verify(
             result = ReadingResult(reading, answers[check].found, seconds)
             readings.append(of_reading(_with_theorems(result, machine), claim.id, attacks))
         results.append(ClaimResult(claim, tuple(readings)))
-    found = [row for one in experiments for row in answers[Without(one.name)].found]
-    rows = tuple(of_row(_row_with_theorems(row, machine), attacks) for row in found)
+    dropped = [row for one in experiments for row in answers[Without(one.name)].found]
+    rows = tuple(of_row(_row_with_theorems(row, machine), attacks) for row in dropped)
     report("done", total, total)
     return Report(effort, tuple(results), rows, kept.corpus, time.perf_counter() - started, machine.message, machine.believed)
 
@@ -149,7 +154,7 @@ class _Machine:
     locked: bool = True
 
 
-def _theorems(claims: Sequence[Claim], report: Progress) -> _Machine:
+def _theorems(claims: Sequence[Claim], report: Progress, *, rocq: bool = False) -> _Machine:
     """Return the theorems that these claims name."""
     names = {name for claim in claims for reading in claim.readings for name in reading.theorems}
     ids = {claim.id for claim in claims}
@@ -161,6 +166,8 @@ def _theorems(claims: Sequence[Claim], report: Progress) -> _Machine:
     if not names:
         return _Machine(None, None, "no theorem is named by these claims")
     try:
+        if not rocq and found() is not None and kept_theory(sources()) is None:
+            raise NoRocq("the theorems are not compiled here; --rocq compiles them, in minutes, and has Rocq check them")
         theorems = machine_checked(names, report)
     except NoRocq as error:
         message = f"{error}. Without it, readings that have a proof in proofs/theory rest on their certificates"

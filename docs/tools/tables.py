@@ -3,7 +3,7 @@ picture of the README; and the table of the quantities that claims of your own c
 
     TABLES     the page -> the function that makes the rows of its table
     filled     the page with these rows between its two marks
-    picture    claims.svg: one square a reading, its verdict told by a letter and a colour
+    picture    claims.svg: a line a claim, its verdict told by a colour and a sentence
     fill       writes them anew, as `python docs/make.py` does
 
 A test compares what these functions give with what is in the folder.
@@ -24,8 +24,9 @@ from faultspace.proofs.quantities.choices import OF_A_CHOICE
 from faultspace.proofs.quantities.pairs import OF_ONE_A_AND_C
 from faultspace.proofs.quantities.records import OF_A_RECORD
 from faultspace.proofs.quantities.registry import Kind, Quantity, quantities
-from faultspace.proofs.verdict.ledger import Claim, expected_without, load
+from faultspace.proofs.verdict.ledger import Claim, expected_without, load, sentences
 from faultspace.proofs.verdict.picture import Line, draw
+from faultspace.proofs.verdict.review_points import review
 from faultspace.proofs.verdict.verdicts import Verdict, of_readings
 
 DOCS = Path(__file__).parents[1]
@@ -69,10 +70,7 @@ def picture() -> str:
 
     matplotlib.use("svg")
     matplotlib.rcParams |= {"svg.hashsalt": "faultspace", "svg.fonttype": "none", "font.family": "sans-serif"}
-    lines = []
-    for claim in load():
-        stated, ours = (tuple(one.proved for one in claim.readings if one.repair == repair) for repair in (False, True))
-        lines.append(Line(claim.id, str(verdict(claim)), stated, ours))
+    lines = [Line(claim.id, claim.group, str(verdict(claim)), sentences()[claim.id]["verdict"]) for claim in load()]
     stream = io.StringIO()
     draw(lines).figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
     return stream.getvalue()
@@ -119,6 +117,15 @@ def quantities_table() -> list[str]:
     ]
 
 
+def review_table() -> list[str]:
+    """The table of review.md has a row for each point of the review, in its order."""
+    rows = ["| the review says | what is true | claims |", "|---|---|---|"]
+    for section, points in groupby(review(), key=lambda point: point.section):
+        rows.append(f"| **{section}** | | |")
+        rows += [f"| {point.says} | {point.true} | {', '.join(point.cards)} |".replace("|  |", "| |") for point in points]
+    return rows
+
+
 def _quantities_table(listed: Mapping[str, Quantity]) -> list[str]:
     rows = ["| name | what it is | meaning | borne by certificates |", "|---|---|---|---|"]
     for name, one in sorted(listed.items(), key=lambda item: (item[1].windowed, list(Kind).index(item[1].kind), item[0])):
@@ -136,6 +143,7 @@ TABLES: dict[str, Callable[[], list[str]]] = {
     "adversary.md": attacks_table,
     "claims.md": claims_table,
     "hypotheses.md": hypotheses_table,
+    "review.md": review_table,
     "your-claims.md": quantities_table,
 }
 

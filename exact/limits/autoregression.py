@@ -9,10 +9,11 @@ persistently exciting of order h + 1. For let a combination of the regressors va
 it vanishes alone, and with it the coefficients of all y; what remains is a combination of u. No rank is left that a colour of u could take
 away, unlike with PI-MOESP, whose limit may lose rank although u excites s + past samples.
 
-Limit. Where Abar(q) d is white, and Abar G = Bbar a polynomial, both of degree h or less, A = Abar and B = Bbar, so that the plant is G
-exactly, whatever colour u has: e = Abar d is then uncorrelated with all regressors. Faults that act as innovations of an observer which
-is deadbeat are such, F = K and G = I with A - K C nilpotent. For any other d the plant of the limit is not G, and tends to it as h grows
-[LW92].
+Limit. Where Abar(q) d is white, the roots of det Abar lie inside the unit circle, and Abar G = Bbar is a polynomial, both of degree h or
+less, A = Abar and B = Bbar, so that the plant is G exactly, whatever colour u has: e = Abar d is then uncorrelated with all regressors, the
+past of d among them. With a root outside it is not: 1 - 2 q^-1, too, makes d(k) = d(k-1) / 2 + e(k) white. Faults that act as innovations
+of an observer which is deadbeat are such, F = K and G = I with A - K C nilpotent. For any other d the plant of the limit is not G, and
+tends to it as h grows [LW92].
 
 Reduction. The estimator of the library then takes the plant of n states that is nearest to A^-1 B in the norm |E|^2 = mean over the
 circle of tr W E P E*, W = A* S^-1 A the inverse spectrum of the faults, S the covariance of e, P the spectrum of u [W89]. That plant is no
@@ -50,10 +51,10 @@ from .process import Signal
 class ARXLimit(Shown):
     """The limit of an ARX model of h lags: `outputs` has I, A_1, .., A_h (p x p), `inputs` has B_0, .., B_h (p x nu).
 
-    `innovation` (p x p) is the covariance of e, and `open_loop` tells whether u and the faults are uncorrelated at all lags. `misfit` is
-    tr S^-1 Cov((A G - B) u), the power, in units of the innovations, of the errors of prediction that the plant's bias makes; None where
-    the loop is not open, or S singular. The plant of n states that the estimator reduces this model to has at most four times that. Source:
-    [LW92], [W89]. Raises nothing.
+    `innovation` (p x p) is the covariance of e, and `open_loop` tells whether u is uncorrelated at all lags with what faults and noise do
+    to the outputs. `misfit` is tr S^-1 Cov((A G - B) u), the power, in units of the innovations, of the errors of prediction that the
+    plant's bias makes; None where the loop is not open, or S singular. The plant of n states that the estimator reduces this model to has
+    at most four times that. Source: [LW92], [W89]. Raises nothing.
 
     >>> from faultspace.exact import arx_limit, read_experiment
     >>> system = {"A": [["1/2"]], "B": [[1]], "C": [[1]], "D": [[0]], "F": [["1/2"]], "G": [[1]]}
@@ -161,7 +162,7 @@ def arx_limit(experiment: Experiment, lags: int) -> ARXLimit:
     outputs = (Matrix.identity(QQ, p), *(-block.columns(range(p)) for block in blocks))
     inputs = (coefficients.columns(range(lags * width, lags * width + nu)), *(block.columns(range(p, width)) for block in blocks))
     innovation = whole.rows(now).columns(now) - coefficients @ crossed
-    open_loop = _uncorrelated(experiment.u_filter, experiment.v_filter)
+    open_loop = _uncorrelated(experiment.u_filter, experiment.v_filter) or _unseen(experiment)
     misfit = _misfit(experiment, outputs, inputs, innovation) if open_loop else None
     return ARXLimit(outputs, inputs, innovation, open_loop, misfit)
 
@@ -213,3 +214,15 @@ def _uncorrelated(u: Filter, v: Filter) -> bool:
         if not total.is_zero():
             return False
     return True
+
+
+def _unseen(experiment: Experiment) -> bool:
+    """This tells whether what faults and noise do to the outputs is uncorrelated with u at all lags.
+
+    Both halves of the sequence of these covariances are H Phi^l K, so that each is zero where it is on as many lags as there are states.
+    """
+    system = experiment.system
+    rest = replace(system, B=system.B - system.B, D=system.D - system.D)
+    known = covariances(replace(experiment, system=rest))
+    most = known.process.Phi.nrows
+    return all(block.is_zero() for block in known.sequence(known.process.y, known.process.u, -most, most).values())

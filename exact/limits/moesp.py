@@ -67,9 +67,13 @@ class PopulationLimits(Shown):
             return None
 
     def arx_bias(self, found: ARXLimit) -> list[Matrix]:
-        """The result is by what the first 2 n + 1 Markov parameters of the ARX model's plant miss the true ones, p x nu each."""
+        """The result is by what the first Markov parameters of the ARX model's plant miss the true ones, p x nu each.
+
+        They are 2 n + 1, and n + 1 more than lags where the lags are more than n: all are right where these are. With A G - B in the place
+        of the plant, those beyond the lags are C' A^k B, which vanish for every k where n of them do.
+        """
         system = self.experiment.system
-        count = 2 * system.residual.n + 1
+        count = system.residual.n + max(system.residual.n, found.lags) + 1
         true = markov_parameters(system.residual.A, system.B, system.residual.C, system.D, count)
         return [one - other for one, other in zip(found.markov(count), true, strict=True)]
 
@@ -269,7 +273,7 @@ def _of_arx(found: PopulationLimits, arx: ARXLimit | None) -> Iterator[tuple[str
     yield "lags", f"{arx.lags}"
     if arx.lags != asked:
         yield "", f"with {asked} the limit is not unique: some"
-        yield "", "output has no noise (w_filter)"
+        yield "", "mixture of outputs has no noise"
     bias = found.arx_bias(arx)
     if all(matrix.is_zero() for matrix in bias):
         yield "its plant", "the true one: reduced to the order it"
@@ -280,10 +284,10 @@ def _of_arx(found: PopulationLimits, arx: ARXLimit | None) -> Iterator[tuple[str
     yield "", f"parameters miss by up to {max(sizes):.3g}"
     if not arx.open_loop:
         yield "", "the input follows the faults or leads"
-        yield "", "them: more lags do not help"
+        yield "", "them: more lags need not help"
     elif arx.misfit is None:
-        yield "its misfit", "not known: an output is predicted"
-        yield "", "exactly, for want of noise (w_filter)"
+        yield "its misfit", "not known: a mixture of outputs is"
+        yield "", "predicted exactly, for want of noise"
     else:
         share = float(arx.misfit)
         yield "its misfit", f"{share:.3g} of the power of what no"

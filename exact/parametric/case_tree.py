@@ -157,22 +157,13 @@ class Branch:
 
     def reduce(self, f: Polynomial) -> Polynomial:
         """Return the remainder of `congruence(f)`, without the cofactors."""
-        for equation in self.equations:
-            f = _divide(f, equation)[2]
-        return f
+        (rest,) = self.joint_reduce([f])
+        return rest
 
     def congruence(self, f: Polynomial) -> Congruence:
-        """The result comes from dividing f by the equations in turn."""
-        multiplier = UnitProduct()
-        cofactors: list[Polynomial] = []
-        for equation in self.equations:
-            times, quotient, f = _divide(f, equation)
-            if times:
-                scale = equation.initial**times
-                cofactors = [scale * cofactor for cofactor in cofactors]
-                multiplier = multiplier * equation.initial_product**times
-            cofactors.append(quotient)
-        return Congruence(multiplier, tuple(cofactors), f)
+        """Return the result of dividing f by the equations in turn."""
+        _, (found,) = self.joint_congruence([f])
+        return found
 
     def joint_reduce(self, polynomials: Sequence[Polynomial]) -> list[Polynomial]:
         """Return remainders of several polynomials, all multiplied by one product of units."""

@@ -24,7 +24,6 @@ import random
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
 
 from ...base.errors import InvalidInput
 from ..algebra import polynomials
@@ -57,11 +56,10 @@ class GenericExceptional:
     """Polynomials are elements of `entries.ring`, whose last generators p11, p12, ... are the entries of P, n_z x r.
 
     `basis` is (n + p) x n_z, `b` and `a` n_z x zeta, `polynomial` = det [P | q b - a]; `point` holds integer values
-    of A, C, F, G at which the ranks are attained; `expanded` and `terms` count what FLINT multiplied out.
+    of A, C, F, G at which the ranks are attained; `expanded` counts what FLINT multiplied out.
     """
 
     entries: Indeterminates
-    zero_feedthrough: bool
     normal_rank: int
     zeta: int
     basis: Rows
@@ -71,31 +69,11 @@ class GenericExceptional:
     cofactors: tuple[Cofactor, ...]
     point: tuple[int, ...]
     expanded: int
-    terms: int
-
-    @property
-    def dimensions(self) -> tuple[int, int, int]:
-        """The dimensions are (n, p, m)."""
-        return self.entries.n, self.entries.p, self.entries.m
 
     @property
     def n_z(self) -> int:
         """n_z is r + zeta."""
         return self.normal_rank + self.zeta
-
-    def to_json(self) -> dict[str, Any]:
-        """The result holds the dimensions, D and the cofactors as texts."""
-        return {
-            "dimensions": dict(zip("npm", self.dimensions, strict=True)),
-            "zero_feedthrough": self.zero_feedthrough,
-            "normal_rank": self.normal_rank,
-            "n_z": self.n_z,
-            "zeta": self.zeta,
-            "polynomial": str(self.polynomial),
-            "cofactors": [[list(c.rows), str(c.cofactor)] for c in self.cofactors],
-            "point": list(self.point),
-            "expanded": self.expanded,
-        }
 
 
 def generic_exceptional(n: int, p: int, m: int) -> GenericExceptional:
@@ -136,7 +114,7 @@ def _generic(n: int, p: int, m: int, *, zero_feedthrough: bool) -> GenericExcept
         route.equal(flint_determinant(route, [images[i] for i in rows]), route(cofactor) * route(D), f"minor of the rows {rows}")
         cofactors.append(Cofactor(rows, cofactor))
     point = _point(entries, zero_feedthrough, zeta, [c.cofactor for c in cofactors])
-    return GenericExceptional(entries, zero_feedthrough, r, zeta, basis, b, a, D, tuple(cofactors), point, route.expanded, route.terms)
+    return GenericExceptional(entries, r, zeta, basis, b, a, D, tuple(cofactors), point, route.expanded)
 
 
 def _space(entries: Indeterminates, zero_feedthrough: bool) -> tuple[Rows, Rows, Rows]:

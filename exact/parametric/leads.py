@@ -36,18 +36,13 @@ Table = Sequence[Sequence[Any]]
 class LeadIdentities:
     """`B` (n x nu) and `D` (p x nu) are B~ and D~ over `ring`, its generators the entries of A, B, C, D, F, G, phi_0, ..., phi_J by rows.
 
-    dimensions: (n, nu, m, p, J); times: samples of the response that were compared; block_rows: s = past; expanded, terms: identities that
-    FLINT multiplied out, and the terms of their left-hand sides.
+    expanded: identities that FLINT multiplied out.
     """
 
-    dimensions: tuple[int, int, int, int, int]
     ring: Ring
     B: tuple[tuple[Polynomial, ...], ...]
     D: tuple[tuple[Polynomial, ...], ...]
-    times: int
-    block_rows: int
     expanded: int
-    terms: int
 
 
 def lead_identities(n: int, nu: int, m: int, p: int, J: int) -> LeadIdentities:
@@ -85,7 +80,7 @@ def lead_identities(n: int, nu: int, m: int, p: int, J: int) -> LeadIdentities:
     _compare(route, _covariance(response, rows), _product(observability, columns, rows * nu, zero), "Cov(Yf, Up)")
 
     B, D = (tuple(tuple(read_back(ring, f) for f in row) for row in table) for table in (seen_B, seen_D))
-    return LeadIdentities((n, nu, m, p, J), ring, B, D, J + 2 * rows, rows, route.expanded, route.terms)
+    return LeadIdentities(ring, B, D, route.expanded)
 
 
 def _pulse_response(entries: dict[str, Table], ring: Ring, J: int, end: int) -> dict[int, Table]:

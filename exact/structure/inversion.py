@@ -6,7 +6,8 @@
     ambiguous_word        (x0, v) with v(0) != 0 and zero output on all of its samples: why fewer samples do not do
     largest_output_nulling V*, the states from which zero output can be kept for ever
 
-Source: [SM69] (known state), [HP98], [MZ10], [K11] (unknown state); [TSH01] for V*.
+Source: [SM69] (known state), [HP98], [MZ10] (unknown state); [TSH01] for V*. The delay of [K11] is another one: that of state and fault
+together, which by its abstract is the delay with a known state.
 """
 
 from __future__ import annotations
@@ -71,7 +72,7 @@ def delay_unknown_state(kernel: KernelRepresentation | System) -> int | None:
     """Return the least number l with which r(0), ..., r(l) determine v(0) whatever x(0) is; None where none do.
 
     A recursion modulo a prime finds it and shows that fewer samples do not do; that l samples do is decided exactly. Source: [HP98],
-    [MZ10], [K11].
+    [MZ10]; not that of [K11], which asks for state and fault together.
 
     Parameters
     ----------
@@ -115,7 +116,7 @@ def largest_output_nulling(system: ResidualSystem) -> Matrix:
 def left_inverse(system: System, delay: int, *, known_state: bool) -> Matrix | None:
     """Return a matrix of shape m x p(delay + 1) that takes r(0), ..., r(delay) to v(0), or None where there is none.
 
-    Source: [SM69] for a known state, [K11] for an unknown one.
+    Source: [SM69] for a known state, [HP98] for an unknown one.
 
     Parameters
     ----------

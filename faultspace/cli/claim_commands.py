@@ -9,18 +9,19 @@ from typing import Annotated
 
 import typer
 
-from ..base.errors import InvalidInput
+from ..base.errors import InvalidInput, shorten
 from .option_types import BoxJobs, Certificates, Effort, Jobs, Json, Scheduler, Verbose, number
 
 
 def verify(
+    stray: Annotated[list[str] | None, typer.Argument(hidden=True)] = None,
+    *,
     effort: Annotated[Effort, typer.Option(help="Samples of systems; or every small one, for the background.")] = Effort.quick,
-    claim: Annotated[
-        list[str] | None, typer.Option("--claim", metavar="ID", help="Only this claim, a page of it; may be repeated.")
-    ] = None,
+    claim: Annotated[list[str] | None, typer.Option("--claim", metavar="ID", help="Only this claim, its card; may be repeated.")] = None,
     jobs: Jobs = None,
     scheduler: Scheduler = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the headline certificates and verdicts.json there.")] = None,
+    rocq: Annotated[bool, typer.Option("--rocq", help="Have Rocq check the theorems; the first time, compile them: minutes.")] = False,
     recheck: Annotated[
         bool, typer.Option("--recheck", help="First compile the Rocq theory anew, whatever is cached, and let coqchk read it.")
     ] = False,
@@ -32,10 +33,13 @@ def verify(
 ) -> int:
     """Decide the claims of the paper.
 
-    A claim gets a line; -v adds a page of each, --claim prints that of one. Exit 0 if every verdict is the expected one, else 1.
+    A claim gets a sentence, with --claim a card; -v prints all readings. Exit 0 if every verdict is the expected one, else 1.
     """
     from . import verifying
 
+    if stray:
+        near = verifying.nearest(stray[0])
+        raise InvalidInput(f"verify: got {shorten(stray[0])}, expected options; try: faultspace verify --claim {near}")
     workers = jobs or (os.cpu_count() or 1 if scheduler is None else -1)
     return verifying.run(
         claim or [],
@@ -43,6 +47,7 @@ def verify(
         jobs=workers,
         scheduler=scheduler,
         out=out,
+        rocq=rocq,
         recheck=recheck,
         verbose=verbose,
         as_json=json,
@@ -60,7 +65,7 @@ def check(
 ) -> int:
     """Run the checker on certificates.
 
-    Exit 0: all verified; 3: all verified, one or more under an assumption that is told; 1: one is
+    Exit 0: all verified; 3: all verified, one or more under an assumption that is printed; 1: one is
     rejected, or not accepted by Rocq; 2: one does not parse.
     """
     from . import checking
@@ -92,6 +97,8 @@ def claim(
 
     Each is refuted by a counterexample, the smallest of its box where that has one, proved, not refuted, or vacuous. The page
     docs/your-claims.md tells the language. Exit 1 where a claim names the verdict that it expects and gets another one.
+
+    Example: faultspace claim example:claims
     """
     from . import claiming
 
@@ -113,7 +120,7 @@ def conjecture(
     about: Annotated[
         str, typer.Option(metavar="KIND", help="What is bounded: system, pair, 'pair with the same (A, C)', choice or record.")
     ] = "system",
-    field: Annotated[str, typer.Option(metavar="FIELD", help="Q, or GF(q).")] = "Q",
+    field: Annotated[str, typer.Option(metavar="FIELD", help="Q, GF(q), or as 'Q(a) with a^2 - 2 = 0'.")] = "Q",
     box: Annotated[
         list[str] | None, typer.Option(metavar="KEY=VALUE", help="As n=1:3, total=5, entries=-1,0,1, or k, nu, N; may be repeated.")
     ] = None,
@@ -136,6 +143,8 @@ def conjecture(
     What is answered is refuted by nothing that was tried and attained by a system (a pair, a choice, a record), none is implied
     by the others, and the next sharper ones come with the smallest one that refutes them. It is no proof; docs/your-claims.md
     tells the language.
+
+    Example: faultspace conjecture lag --by n
     """
     from . import conjecturing
 

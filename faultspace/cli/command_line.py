@@ -29,7 +29,7 @@ app = typer.Typer(
     name="faultspace",
     help="Exact verdicts on the claims of a paper about systems with additive faults, and exact answers about your own system.",
     epilog="A SYSTEM is a JSON file, - for standard input, or example:NAME (see: faultspace examples). "
-    "Exit codes: 0 answered as expected, 1 not as expected, 2 bad input, 3 from check: verified under an assumption that is told, "
+    "Exit codes: 0 answered as expected, 1 not as expected, 2 bad input, 3 from check: verified under an assumption that is printed, "
     "70 an error of ours, 130 interrupted, 143 terminated.",
     add_completion=False,
     rich_markup_mode=None,
@@ -153,6 +153,8 @@ def limit(
 
     The limits of PI-MOESP and PO-MOESP are exact, for filtered white noise as input and fault. An experiment is a system with B and D, the
     block rows "s" and "past", and "u_filter", "v_filter", "w_filter": matrices over lag.
+
+    Example: faultspace limit example:fault-follows-input
     """
     from . import limiting
 
@@ -215,6 +217,7 @@ def identify(
     scheduler: Annotated[
         str | None, typer.Option(metavar="ADDRESS", help="Have the Dask cluster with this scheduler share the work of long records.")
     ] = None,
+    verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Print all evidence, too.")] = False,
     json: Json = False,
 ) -> int:
     """Find model and faults in measured data.
@@ -232,7 +235,7 @@ def identify(
     level = noise_level[0] if noise_level and len(noise_level) == 1 else noise_level or None
     known: dict[str, Any] = {"order": order, "block_rows": block_rows, "n_v": faults, "healthy": healthy_until}
     known |= {"noise_level": level, "operating_point": operating_point, "dt": dt}
-    told: dict[str, Any] = {"inputs": inputs or [], "outputs": outputs or [], "gaps": gaps, "scheduler": scheduler}
+    told: dict[str, Any] = {"inputs": inputs or [], "outputs": outputs or [], "gaps": gaps, "scheduler": scheduler, "verbose": verbose}
     return identifying.run(data, known, healthy=healthy, out=out, as_json=json, **told)
 
 
@@ -368,7 +371,9 @@ def audit(
 
     The answers are known exactly; exit 1 if a must is not met. The adapter has some of: identify, residual, window_ranks, fault_dimension,
     fault_space, reconstruct, structure, count_faults, identified_fault_space. It runs in a process of
-    its own: what hangs, crashes, forks or takes too much memory is told as that, and the next check goes on.
+    its own: what hangs, crashes, forks or takes too much memory is one failure, and the next check goes on.
+
+    Example: faultspace audit mine.py --quick
     """
     from . import auditing
 

@@ -21,6 +21,7 @@ from ..numeric.data.files import read_record, read_stretches
 from ..numeric.data.records import Record
 from ..numeric.plant.pipeline import identify
 from ..numeric.plant.report import result_files as report
+from ..numeric.plant.report.first_screen import first_screen
 from ..numeric.plant.report.folders import refuse
 from ..numeric.plant.report.summary import summary
 from .argument_names import as_options, naming, of_file
@@ -39,6 +40,7 @@ def run(
     outputs: Sequence[str],
     out: Path | None,
     as_json: bool,
+    verbose: bool = False,
     scheduler: str | None = None,
 ) -> int:
     """Identify by what is `known`, the arguments of the library, or by a file `healthy` in the place of so many samples, and write the
@@ -54,6 +56,9 @@ def run(
         raise InvalidInput("--healthy: got --healthy-until as well, expected one of them: a file without fault, or the number of samples")
     if not (inputs and outputs):
         read_record(files[0], inputs=inputs, outputs=outputs)  # refuses, and says what there is
+    for name in files:
+        if not Path(name).exists():
+            read_record(name, inputs=inputs, outputs=outputs)  # refuses, before what else is missing is told
     if out is None:
         raise InvalidInput("--out: got none, expected a folder for the answer: try --out answer")
     worded = as_options if healthy is None else of_file
@@ -89,6 +94,13 @@ def run(
         print_json(report.document(answer, data, worded=worded) | {"files": written})
         return ANSWERED
     console = answers()
+    if not verbose:
+        for line in first_screen(answer, data, worded=worded):
+            label = line[: line.find(":") + 1]
+            paragraph(console, Text(line.removeprefix(label)), Text(label, style="bold"))
+        evidence = f"the evidence is in {report.PAGE} in {quote_path(str(out))}, beside {len(written) - 1} more files; -v prints it"
+        paragraph(console, evidence, Text("Files:   ", style="bold"))
+        return ANSWERED
     for line in summary(answer, data, worded=worded):
         paragraph(console, Text(line, style="bold cyan" if line.startswith("#") else ""))
     console.print()

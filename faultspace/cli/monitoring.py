@@ -153,7 +153,8 @@ class _Watch:
         if self._as_json:
             text = json.dumps({"summary": watch.to_json() | {"bad_lines": bad}})
         else:
-            text = lines(f"\n{watch.summary()}") + (f"\n{counted(bad, 'line')} that were no samples" if bad else "")
+            lost = "was no sample" if bad == 1 else "were no samples"
+            text = lines(f"\n{watch.summary()}") + (f"\n{counted(bad, 'line')} that {lost}" if bad else "")
         sys.stdout.write(text + "\n")
         sys.stdout.flush()
         return saved
@@ -200,6 +201,8 @@ def _ready(name: str, inputs: list[str], outputs: list[str], watching: Watching)
     """Return what is in the file of a model or a saved monitor, or in the folder that `identify` wrote; the names are those of the file
     unless given."""
     path = str(Path(name) / MODEL) if Path(name).is_dir() else name
+    if path != name and not Path(path).exists():
+        raise InvalidInput(f"{quote_path(name)}: has no {MODEL}, expected a folder that identify wrote; try: faultspace identify --help")
     document = read_json(path)
     calibrating = watching.healthy is not None or watching.healthy_until is not None
     with in_file(path):

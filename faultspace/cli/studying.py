@@ -58,7 +58,7 @@ METRICS = ("published", "containment", "two_sided")
 EXPLANATION = (
     "median: with the interval that holds it with 95 % confidence; containment: median of the angles from [F; G] alone over their maximum; "
     "random: median error of a random subspace of dimension n_z; right n_z: cases with the true dimension, "
-    "of which paper is told and likelihood is not"
+    "of which paper is told and the others are not"
 )
 
 

@@ -1,9 +1,8 @@
 """Print what `faultspace verify` says by itself, and the page of a claim, which `--claim ID` and `--verbose` ask for.
 
 print_differences   what is not as expected, before all else
-print_lines        a line for each claim, what the verdicts mean, the hypotheses, the attacks, Rocq; print_machine: the last of these
+print_rest         the hypotheses, the attacks and Rocq, a sentence each; print_machine: the last of these
 print_summary      the last line
-resting_on         how many readings of a claim have which verdict
 hypothesis_words, attack_words   a sentence each
 print_page         a claim in full: its readings with evidence, attacks, locks and certificates, then what happens without each hypothesis
 rows_worth_reading   the rows that are worth showing; all are in the JSON
@@ -18,7 +17,6 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from rich.console import Console
-from rich.table import Table
 from rich.text import Text
 
 from ..base.sheets import counted
@@ -26,19 +24,12 @@ from ..proofs.evidence.attacks import Attacked
 from ..proofs.rocq.build import told
 from ..proofs.trust.structure_certificates import Certificate, sha256
 from ..proofs.verdict.verdicts import ClaimResult, ReadingResult, Report, Row, Verdict
-from .consoles import paragraph, print_table
+from .claim_cards import STYLES
+from .consoles import paragraph
 
-STYLES = {
-    Verdict.PROVED: "bold green",
-    Verdict.IDENTITY: "green",
-    Verdict.CERTIFIED: "green",
-    Verdict.REFUTED: "yellow",
-    Verdict.AMENDED: "magenta",
-    Verdict.ERROR: "bold red",
-}
 SHORT = 12
 MOST_SHOWN = 2
-HELP = "--claim ID prints a page of a claim, -v those of all, --out DIR writes the certificates."
+HELP = "--claim ID prints the card of a claim, -v all readings, --out DIR writes the certificates."
 
 
 def rows_worth_reading(rows: Sequence[Row]) -> list[Row]:
@@ -127,53 +118,26 @@ def _reading(result: ReadingResult) -> Iterator[tuple[str, str]]:
     yield "seconds:", f"{result.seconds:.1f}, beside the making of the certificates that readings share"
 
 
-def print_lines(console: Console, report: Report) -> None:
-    """Print a line for each claim, then a sentence on each of what they rest on."""
-    claims = sorted(report.claims, key=lambda claim: claim.as_expected)  # stable: else in the order of the ledger
-    print_table(console, claims_table(claims))
-    there = {claim.verdict for claim in claims} | {one.outcome.verdict for claim in claims for one in claim.readings}
-    occurring = [verdict for verdict in Verdict if verdict in there]
-    paragraph(console, Text("; ".join(f"{verdict}: {verdict.meaning}" for verdict in occurring) + ".", style="dim"))
+def print_rest(console: Console, report: Report) -> None:
+    """Print a sentence on each of what the verdicts rest on."""
     if report.hypotheses:
-        paragraph(console, hypothesis_words(report.hypotheses), "hypotheses: ")
-    paragraph(console, attack_words(report), "attacks: ")
+        paragraph(console, hypothesis_words(report.hypotheses), "Hypotheses: ")
+    paragraph(console, attack_words(report), "Searches: ")
     print_machine(console, report)
     paragraph(console, Text(HELP, style="dim"))
 
 
 def print_machine(console: Console, report: Report) -> None:
     """Print what Rocq has checked, and by which programs and files."""
-    paragraph(console, report.machine, "machine-checked: ")
+    paragraph(console, report.machine, "Machine-checked: ")
     if report.believed is not None:
-        paragraph(console, told(report.believed), "believed: ")
+        paragraph(console, told(report.believed), "Believed: ")
 
 
 def print_differences(console: Console, report: Report) -> None:
     """Print a line for whatever is not as expected: this stands before all else."""
     for line in differences(report):
         paragraph(console, Text(line, style="bold red"), "! ")
-
-
-def claims_table(claims: Sequence[ClaimResult]) -> Table:
-    """Return a table with one row for each claim, where "!" marks those that are not as expected."""
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
-    table.add_column("claim", no_wrap=True)
-    table.add_column("verdict", no_wrap=True)
-    table.add_column("readings as stated", overflow="fold")
-    table.add_column("readings of ours", overflow="fold")
-    for claim in claims:
-        name = Text(claim.claim.id) if claim.as_expected else Text(f"! {claim.claim.id}", style="bold red")
-        verdict = Text(str(claim.verdict), style=STYLES[claim.verdict] if claim.as_expected else "bold red")
-        table.add_row(name, verdict, resting_on(claim, ours=False), resting_on(claim, ours=True))
-    return table
-
-
-def resting_on(claim: ClaimResult, *, ours: bool) -> str:
-    """Return how many of the readings of the words as stated, or of ours, have which verdict: "1 proved, 2 refuted"."""
-    verdicts = [result.outcome.verdict for result in claim.readings if result.reading.repair == ours]
-    counts = Counter(verdicts)
-    parts = ", ".join(f"{counts[verdict]} {verdict.lower()}" for verdict in Verdict if counts[verdict])
-    return f"parts: {parts}" if claim.claim.in_parts and not ours else parts or "-"
 
 
 def differences(report: Report) -> Iterator[str]:
@@ -217,11 +181,11 @@ def attack_words(report: Report) -> str:
     found = [verdict for attack, verdict in attacked if attack.refutes]
     trouble = sum(attack.trouble is not None for attack, _ in attacked)
     standing = sum(verdict != Verdict.REFUTED for verdict in found)
-    return (
-        f"{len(attacked)} looked at again: {len(found)} confirm a counterexample "
-        f"({standing} of these against a verdict other than REFUTED), {len(attacked) - len(found)} found none; "
-        f"{trouble} out of date or not found again."
-    )
+    against = "all of refuted statements" if not standing else f"{standing} against a verdict other than REFUTED"
+    ends = f"; {trouble} are out of date or were not found again" if trouble else ""
+    nothing = len(attacked) - len(found)
+    confirmed = f"{len(found)} confirm a counterexample, {against}"
+    return f"{len(attacked)} stored searches were repeated: {confirmed}; {nothing} found nothing{ends}."
 
 
 def print_summary(console: Console, report: Report) -> None:

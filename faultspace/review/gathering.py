@@ -14,26 +14,22 @@ from ..base.progress import Progress, silent
 from ..numeric.study.studies import STUDIES
 from ..proofs.checking import check
 from ..proofs.trust.checker import Malformed, Rejected
-from .computed.bound import RECORDS, bound
 from .computed.controls import FALSE, controls
 from .computed.convergence import LENGTHS, SEEDS, convergence
-from .computed.counterexamples import counterexamples
-from .computed.study import RUNS, SYSTEMS, board, example, study
-from .computed.systems import systems
+from .computed.study import RUNS, SYSTEMS, example, study
 from .records import Records, Run
 
 
 @dataclass(frozen=True)
 class Sizes:
-    """`runs` are records of the example, `study` systems of each of the `plans`, `lengths` and `seeds` records beside the limits, `records`
-    those beside the bound, `statements` those that are false."""
+    """`runs` are records of the example, `study` systems of each of the `plans`, `lengths` and `seeds` records beside the limits,
+    `statements` those that are false."""
 
     runs: int = RUNS
     study: int = SYSTEMS
     plans: tuple[str, ...] = tuple(STUDIES)
     lengths: tuple[int, ...] = LENGTHS
     seeds: int = SEEDS
-    records: int = RECORDS
     statements: int = len(FALSE)
 
 
@@ -47,14 +43,10 @@ def gather(run: Run, sizes: Sizes = STANDARD, *, on_progress: Progress = silent)
     return Records(
         run=run,
         checked=_checked(run.certificates, on_progress),
-        counterexamples=counterexamples(run.verdicts, run.certificates, on_progress=on_progress),
         example=ours,
         convergence=convergence(sizes.lengths, sizes.seeds, on_progress=on_progress),
         study=study(sizes.study, plans=sizes.plans, on_progress=on_progress),
-        bound=bound(sizes.records, on_progress=on_progress),
         controls=controls(run.certificates, sizes.statements, on_progress=on_progress),
-        systems=systems(run.certificates, on_progress=on_progress),
-        board=board(),
     )
 
 

@@ -50,7 +50,7 @@ def render(records: Records) -> str:
     style, script, begin = _file("page.css"), _file("page.js"), BEGIN
     environment.globals |= {
         "matrix": mathml.matrix,
-        "expression": mathml.expression,
+        "typeset": mathml.typeset,
         "pictures": pictures,
         "policy": Markup(policy([style], [begin, script])),
         "style": Markup(style),

@@ -3,7 +3,6 @@
 Run            the verdicts of a run, where it comes from, and its certificates by SHA-256
 Records        a run with all that was computed beside it
 read_run       the folder that `faultspace verify --out` has written
-LITERATURE     the file in that folder with the answers of `faultspace claim example:literature --json`, where somebody has put it there
 NEEDED         what must be written into verdicts.json, key by key: a file of an earlier version is refused, and not half shown
 """
 
@@ -20,11 +19,11 @@ from ..base.regular_files import open_regular
 from ..proofs.trust.structure_certificates import sha256
 from ..proofs.verdict.run_folder import ORIGIN, VERDICTS
 
-LITERATURE = "literature.json"
 AGAIN = "write the folder anew: faultspace verify --out DIR"
 NEEDED = {
     "": ("effort", "corpus", "rocq", "seconds", "versions", "claims", "hypotheses"),
-    "claims": ("id", "reference", "whose", "as_stated", "uses", "verdict", "expected", "rests_on", "readings"),
+    "claims": ("id", "reference", "whose", "as_stated", "uses", "verdict", "expected", "rests_on", "readings", "card"),
+    "card": ("id", "group", "verdict", "wrong", "instead", "why"),
     "readings": (
         *("reading", "ours", "statement", "hypotheses", "verdict", "expected", "theorems", "locks", "missing_for_a_proof", "evidence"),
         *("certificates_accepted", "certificates", "attacks", "seconds"),
@@ -39,13 +38,11 @@ NEEDED = {
 
 @dataclass(frozen=True)
 class Run:
-    """`verdicts` and `origin` are the documents of these names; `certificates` maps SHA-256 to certificate; `literature` is None where the
-    run did not decide it."""
+    """`verdicts` and `origin` are the documents of these names; `certificates` maps SHA-256 to certificate."""
 
     verdicts: Mapping[str, Any]
     origin: Mapping[str, Any]
     certificates: Mapping[str, Any]
-    literature: Mapping[str, Any] | None
 
 
 @dataclass(frozen=True)
@@ -55,14 +52,10 @@ class Records:
 
     run: Run
     checked: Mapping[str, Mapping[str, Any]]
-    counterexamples: Mapping[str, Any]
     example: Mapping[str, Any]
     convergence: Mapping[str, Any]
     study: Mapping[str, Any]
-    bound: Mapping[str, Any]
     controls: Mapping[str, Any]
-    systems: Mapping[str, Any]
-    board: Mapping[str, Any]
 
 
 def read_run(folder: Path) -> Run:
@@ -73,14 +66,13 @@ def read_run(folder: Path) -> Run:
     _has(origin, "origin", quote_path(str(folder / ORIGIN)))
     for claim in _all(verdicts, "claims", where):
         _all(claim, "readings", where)
+        _has(claim["card"], "card", where)
     _all(verdicts, "hypotheses", where)
     found = [_document(path) for path in sorted(folder.glob("*-*.json"))]
-    there = (folder / LITERATURE).exists()
     return Run(
         verdicts=verdicts,
         origin=origin,
         certificates={sha256(one): one for one in found if one.get("format") == "faultspace-certificate/1"},
-        literature=_document(folder / LITERATURE) if there else None,
     )
 
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
-from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,14 +17,12 @@ from ..base.errors import InvalidInput, quote_path, shorten
 from ..base.progress import Progress, silent
 from ..base.sheets import Shown, counted
 from ..base.writing import reason, write_text
-from ..proofs.brought.claim_files import read_claims
-from ..proofs.brought.claiming import decide_claims
 from ..proofs.evidence.specimens import specimens
-from ..proofs.verdict.run_folder import write_document, write_run
+from ..proofs.verdict.run_folder import write_run
 from ..proofs.verification import EFFORTS, verify
 from .gathering import STANDARD, Sizes, gather
 from .page import jinja, render
-from .records import LITERATURE, read_run
+from .records import read_run
 
 if TYPE_CHECKING:
     from .view.alarms import Alarm
@@ -79,14 +76,14 @@ def report(
 ) -> Page:
     """Make the page that a reviewer reads: one file that holds everything and fetches nothing.
 
-    What stands beside the verdicts is computed in half a minute: the example, the limits, a small study, the bound, negative controls. It
-    needs the extra "report". The claims are those of [G25].
+    What stands beside the verdicts is computed in half a minute: the example, the limits, a small study, negative controls. It needs
+    the extra "report". The claims are those of [G25].
 
     Parameters
     ----------
     run : path, optional
-        A folder that `faultspace verify --out` has written, with the answers of `faultspace claim example:literature --json` in
-        literature.json or without; None has both made first and kept in the folder `run` of `out`, which takes minutes.
+        A folder that `faultspace verify --out` has written; None has one made first and kept in the folder `run` of `out`, which takes
+        minutes.
     out : path
         The folder in which the page is report.html.
     effort : str
@@ -135,15 +132,12 @@ def made(run: str | os.PathLike[str] | None, out: Path, effort: str, jobs: int, 
 
 
 def _decided(folder: Path, effort: str, jobs: int, on_progress: Progress) -> Path:
-    """Return the folder with a new run: the claims, and the statements of the literature."""
+    """Return the folder with a new run."""
     _prepare(folder)
     if any(folder.iterdir()):
         name = quote_path(str(folder))
         raise InvalidInput(f"{name}: got files, expected an empty folder or none; if they are a run, its page is made by --run {name}")
     write_run(verify(effort=effort, jobs=jobs, on_progress=on_progress), folder, specimens())  # kept, should the rest be broken off
-    text = resources.files("faultspace").joinpath("examples", "literature.toml").read_text("utf-8")
-    answers = decide_claims(read_claims(text), ablation=False, jobs=1, on_progress=on_progress)
-    write_document(folder / LITERATURE, answers.to_json())
     return folder
 
 

@@ -11,7 +11,7 @@
     diagnosing/  what is probably wrong with an answer that failed
     reports/     failures folded, JUnit, badges, versions
     upstream/    checks as data and as scripts, for those who do not have this
-    reproducers/ a script for one finding of each cause
+    reproducers/ scripts for some findings
 
     checks/      what is asked, one file a topic
     vectors/     exact systems, data, answers and derived bounds, as JSON that any language can read

@@ -7,7 +7,7 @@ FunctionTally   of the checks of one function: how many there are, with which ve
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, overload
 
 from ...base.errors import InvalidData, quote_path
@@ -77,11 +77,14 @@ class Audit(Shown, Sequence[CheckResult]):
 
     @property
     def title(self) -> str:
-        """This says how many checks there are of which functions, and how many failed."""
+        """This says how many checks there are of which functions, how many failed, and how many the adapter alone excuses."""
         names = ", ".join(dict.fromkeys(one.function for one in self.results))
         known = sum(one.verdict == Status.EXPECTED for one in self.results)
-        expected = f", {known} as expected" if known else ""
-        return f"{counted(len(self), 'check')} of {names or 'nothing'}: {len(self.failed)} failed{expected}"
+        excused = sum(replace(one, not_promised="").failed for one in self.results if one.not_promised)
+        told = "".join(
+            f", {count} {words}" for count, words in ((known, "as expected"), (excused, "not met that it never promised")) if count
+        )
+        return f"{counted(len(self), 'check')} of {names or 'nothing'}: {len(self.failed)} failed{told}"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
         """Yield a line for each function, then the failures in words."""

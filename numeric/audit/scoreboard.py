@@ -132,7 +132,7 @@ answer is known exactly. `python -m faultspace.numeric.audit.scoreboard --out nu
 
 Beside the name of a check stands how many of its vectors failed, then the first of them, what was off, and the bound.
 `faultspace audit --peer NAME --check CHECK` repeats a finding; `--reproduce CHECK`, with `--language octave` or `julia` where the
-package is in that, prints a script that shows it without faultspace. For one finding of each cause the script is in
+package is in that, prints a script that shows it without faultspace. For some findings the script is in
 [reproducers/](reproducers). What no check can see was [found by hand](peers/by_hand.md).
 """
 

@@ -12,6 +12,7 @@ from the outputs, an order at infinity rises. So a point is led to the zero set 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from random import Random
 
 from flint import fmpq, fmpq_poly
@@ -113,34 +114,28 @@ def _at_points(family: Family, decide: Decide) -> Callable[[Point], Witness | No
 
 
 def _refuted() -> Iterator[Attack]:
-    tall, square, scalar = free_family(2, 2, 1), free_family(1, 2, 2), free_family(1, 1, 1)
-    yield from on_strata("theorem-2.finite-zeros-only", "one state", scalar, [feedthrough], unlike(_finite_only, zeros))
-    yield from on_strata("theorem-2.transfer-function-zeros", "an idle state", idle_family(2, 1, 1), [at_zero], _transfer_zeros)
-    yield from on_strata("theorem-2.every-window", "one fault", tall, [feedthrough], unlike(_every_window, zeros))
-    for target, known in (
-        ("assumption-4.n-minus-1-known", True),
-        ("assumption-4.n-minus-1-unknown", False),
-        ("proposition-3.n-minus-1", True),
-        ("settle-2.n-minus-1", True),
+    tall, flat, scalar, no_gain = free_family(2, 2, 1), free_family(1, 2, 1), free_family(1, 1, 1), free_family(2, 1, 1, feedthrough=False)
+    known, unknown = (unlike(partial(_early_gap, known=known), delays) for known in (True, False))
+    early_space = unlike(_early_space, spaces(lambda s: s.n))
+    for target, name, family, square, decide in (
+        ("theorem-2.finite-zeros-only", "one state", scalar, feedthrough, unlike(_finite_only, zeros)),
+        ("theorem-2.transfer-function-zeros", "an idle state", idle_family(2, 1, 1), at_zero, _transfer_zeros),
+        ("theorem-2.every-window", "one fault", tall, feedthrough, unlike(_every_window, zeros)),
+        ("assumption-4.n-minus-1-known", "one fault", tall, at_zero, known),
+        ("assumption-4.n-minus-1-unknown", "one fault", tall, at_zero, unknown),
+        ("proposition-3.n-minus-1", "one fault", tall, at_zero, known),
+        ("settle-2.n-minus-1", "one fault", tall, at_zero, known),
+        ("proposition-3.without-left-invertibility", "two faults", free_family(1, 1, 2), seen, unlike(_gap_not_m, ranks_and_inversion)),
+        ("problem-11.window-n", "one fault", flat, feedthrough, early_space),
+        ("zero-feedthrough.fault-matrices", "G = 0", no_gain, product, unlike(_other_matrices, zeros)),
+        ("trajectory-recovered.state-unknown", "one fault", free_family(2, 1, 1), at_zero, unlike(_state_needed, delays)),
+        ("zeros-of-pairs.split", "two faults", free_family(1, 2, 2), feedthrough, _other_split),
+        ("objection-3.controllability-needed", "an idle state", idle_family(2, 2, 1), at_zero, unlike(_right_anyway, zeros)),
+        ("problem-11.first-block-column", "one fault", flat, feedthrough, _first_column),
+        ("bad-set.codimension-unobservable", "a hidden state", hidden_family(1, 1, 1), feedthrough, _bad_on_a_line),
+        ("zero-assignment.without-observability", "a hidden state", hidden_family(2, 2, 2), at_zero, _no_free_zeros),
     ):
-        yield from on_strata(target, "one fault", tall, [at_zero], unlike(lambda d, known=known: _early_gap(d, known), delays))  # type: ignore[misc]
-    yield from on_strata(
-        "proposition-3.without-left-invertibility", "two faults", free_family(1, 1, 2), [seen], unlike(_gap_not_m, ranks_and_inversion)
-    )
-    yield from on_strata(
-        "problem-11.window-n", "one fault", free_family(1, 2, 1), [feedthrough], unlike(_early_space, spaces(lambda s: s.n))
-    )
-    no_gain = free_family(2, 1, 1, feedthrough=False)
-    yield from on_strata("zero-feedthrough.fault-matrices", "G = 0", no_gain, [product], unlike(_other_matrices, zeros))
-    yield from on_strata("trajectory-recovered.state-unknown", "one fault", free_family(2, 1, 1), [at_zero], unlike(_state_needed, delays))
-    yield from on_strata("zeros-of-pairs.split", "two faults", square, [feedthrough], _other_split)
-    yield from on_strata(
-        "objection-3.controllability-needed", "an idle state", idle_family(2, 2, 1), [at_zero], unlike(_right_anyway, zeros)
-    )
-    yield from on_strata("problem-11.first-block-column", "one fault", free_family(1, 2, 1), [feedthrough], _first_column)
-    hidden = hidden_family(2, 2, 2)
-    yield from on_strata("bad-set.codimension-unobservable", "a hidden state", hidden_family(1, 1, 1), [feedthrough], _bad_on_a_line)
-    yield from on_strata("zero-assignment.without-observability", "a hidden state", hidden, [at_zero], _no_free_zeros)
+        yield from on_strata(target, name, family, [square], decide)
 
 
 # -- what is false ---------------------------------------------------------------------------------------------------------

@@ -46,7 +46,9 @@ def claim(
     jobs: int = 1,
     on_progress: Progress | None = None,
 ) -> ClaimAnswers:
-    """Decide a claim of your own about all systems x(k+1) = A x + F v, r = C x + G v: refuted by the smallest counterexample, or not.
+    """Decide a claim of your own about all systems x(k+1) = A x + F v, r = C x + G v: refuted by a counterexample, or not.
+
+    The counterexample is the smallest of the box, where the box has one that was met.
 
     Each quantity of a counterexample comes with certificates, as far as the checker has a kind for it, and names what has none.
     Source: [F75], [VD79] for what is asked of every window.
@@ -59,7 +61,7 @@ def claim(
     hypotheses : list of str or callable
         Likewise.
     fields : list of str
-        "Q" and "GF(q)".
+        "Q", "GF(q)", and number fields such as "Q(a) with a^2 - 2 = 0".
     box : dict, optional
         "n", "m", "p" (first and last number of states, faults, outputs), "total" (the largest n + m + p) and "entries"; "k" of a choice,
         "nu" and "N" of a record.

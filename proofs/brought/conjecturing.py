@@ -343,7 +343,8 @@ def _columns(table: Table, names: Sequence[str], begin: int) -> _Columns:
 
 
 def _fit(table: Table, columns: _Columns, grammar: Grammar, side: str) -> Fit:
-    return fit(_targets(table), columns.values, _in_box(table), grammar, side)
+    in_box = np.array([row.in_box for row in table.rows], dtype=bool)
+    return fit(_targets(table), columns.values, in_box, grammar, side)
 
 
 def _terms(about: str) -> int:
@@ -357,10 +358,6 @@ def _nouns(table: Table) -> tuple[str, str]:
 
 def _targets(table: Table) -> Integers:
     return np.array([row.values[0] for row in table.rows], dtype=np.int64)
-
-
-def _in_box(table: Table) -> NDArray[np.bool_]:
-    return np.array([row.in_box for row in table.rows], dtype=bool)
 
 
 def _systems(table: Table, attained: NDArray[np.bool_]) -> int:

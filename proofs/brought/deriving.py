@@ -41,6 +41,7 @@ from .normal_forms import (
     Unknown,
     balance,
     formula,
+    is_count,
     matrices,
     negated,
     parts_of_extremes,
@@ -143,10 +144,13 @@ def _meanings(nodes: Sequence[Node]) -> Iterator[Formula]:
     for one in matrices(nodes):
         try:
             rank = total(Node("rank", one.kind, (one,), None, "", 0))
-            rows, columns = sides(one, {})
+            both = sides(one, {})
         except (Unknown, KeyError):
             continue
-        yield from (AtMostZero(zero - rank), AtMostZero(rank - rows), AtMostZero(rank - columns))
+        below = tuple(AtMostZero(number(1) + side) for side in both if not is_count(side))  # a matrix of such a size has no rank
+        yield AtMostZero(zero - rank)
+        for side in both:
+            yield Either((*below, AtMostZero(rank - side))) if below else AtMostZero(rank - side)
     for name, whole, part in parts_of_extremes(nodes, {}):
         smaller, larger = (part, whole) if name == "max" else (whole, part)
         if smaller != larger:

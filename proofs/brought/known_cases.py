@@ -119,14 +119,10 @@ def _record_steps(record: Record) -> Iterator[Record]:
     for name in "AFCG":
         for matrix in simpler_matrices(getattr(residual, name)):
             yield Record(FaultySystem(with_matrix(residual, name, matrix), B, D), u, x0)
-    for matrix in simpler_matrices(B):
-        yield Record(FaultySystem(residual, matrix, D), u, x0)
-    for matrix in simpler_matrices(D):
-        yield Record(FaultySystem(residual, B, matrix), u, x0)
-    for matrix in simpler_matrices(u):
-        yield Record(system, matrix, x0)
-    for matrix in simpler_matrices(x0):
-        yield Record(system, u, matrix)
+    yield from (Record(FaultySystem(residual, matrix, D), u, x0) for matrix in simpler_matrices(B))
+    yield from (Record(FaultySystem(residual, B, matrix), u, x0) for matrix in simpler_matrices(D))
+    yield from (Record(system, matrix, x0) for matrix in simpler_matrices(u))
+    yield from (Record(system, u, matrix) for matrix in simpler_matrices(x0))
 
 
 @lru_cache(maxsize=4)

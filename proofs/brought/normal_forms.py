@@ -248,6 +248,7 @@ def _infinite(one: Sum) -> frozenset[Atom]:
 # -- integers ----------------------------------------------------------------------------------------------------------
 
 INFINITY = Atom("inf", finite=False)
+SIZES = ("n", "m", "p")
 SIDES = {"A": ("n", "n"), "F": ("n", "m"), "C": ("p", "n"), "G": ("p", "m")}
 
 
@@ -328,6 +329,8 @@ def _gathered(node: Node, env: Env) -> Sum:
         parts = sorted({total(part, env) for part in node.args}, key=str)
         if len(parts) == 1:
             return parts[0]
+        if any(map(_may_fall, parts)):
+            raise Unknown(node.text)
         finite = [not _infinite(part) for part in parts]
         return of_atom(Atom(f"{node.op}({', '.join(map(str, parts))})", finite=all(finite) if node.op == "max" else any(finite)))
     name = _list(node.args[0])
@@ -340,6 +343,11 @@ def _gathered(node: Node, env: Env) -> Sum:
         case "max" if name == "left_minimal_indices":
             return _quantity("lag")
     return of_atom(Atom(f"{node.op}({name})", name in quantities()))
+
+
+def _may_fall(one: Sum) -> bool:
+    """Return whether the sum may be -inf. The only infinity that an atom stands for is the one above all numbers."""
+    return any(len(product) > 1 or times < 0 for product, times in one.terms if not all(atom.finite for atom in product))
 
 
 def parts_of_extremes(nodes: Iterable[Node], env: Env) -> Iterator[tuple[str, Sum, Sum]]:
@@ -415,6 +423,11 @@ def sides(node: Node, env: Env) -> tuple[Sum, Sum]:
         case "vstack":
             return _added(part[0] for part in parts), parts[0][1]
     return parts[0]
+
+
+def is_count(side: Sum) -> bool:
+    """Return whether a number of rows or columns is seen to be none below 0: that of I(lag - n) is not, and may have no value."""
+    return all(times > 0 and all(atom.text in SIZES for atom in product) for product, times in side.terms)
 
 
 def _added(sums: Iterable[Sum]) -> Sum:

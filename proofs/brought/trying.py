@@ -116,7 +116,7 @@ def _share(box: Box, sizes: Sizes, asked: list[Question], left: int, sharing: Sh
     """Return the parts of the systems of these sizes: those that are kept, and the others gone through now."""
     of, said = sharing.parts(box.count(*sizes)), texts(asked)
     if of == 1:
-        return [_search(box, sizes, asked, left, 0, 1, reduced=reduced)]
+        return [_search(box, sizes, asked, left, 0, 1, reduced)]
     kept = sharing.kept if said is not None else None
     names = [name_of(str(box), sizes, said, left, k, of) for k in range(of)]
     parts: dict[int, _Part] = {}
@@ -125,7 +125,7 @@ def _share(box: Box, sizes: Sizes, asked: list[Question], left: int, sharing: Sh
             parts[k] = _Part(one["systems"], one["looked_at"], one["whole"], list(one["met"]), [None] * len(asked))
     waiting = [k for k in range(of) if k not in parts]
     tasks = [(box, sizes, asked, left // of, k, of, reduced) for k in waiting]
-    for number, part in as_they_come(_search_part, tasks, count=sharing.jobs, cluster=sharing.cluster):
+    for number, part in as_they_come(_search, tasks, count=sharing.jobs, cluster=sharing.cluster):
         k = waiting[number]
         if isinstance(part, Died):
             raise InvalidData(
@@ -137,11 +137,7 @@ def _share(box: Box, sizes: Sizes, asked: list[Question], left: int, sharing: Sh
     return [parts[k] for k in range(of)]
 
 
-def _search_part(box: Box, sizes: Sizes, asked: list[Question], left: int, mine: int, of: int, reduced: bool) -> _Part:
-    return _search(box, sizes, asked, left, mine, of, reduced=reduced)
-
-
-def _search(box: Box, sizes: Sizes, asked: list[Question], left: int, mine: int, of: int, *, reduced: bool) -> _Part:
+def _search(box: Box, sizes: Sizes, asked: list[Question], left: int, mine: int, of: int, reduced: bool) -> _Part:
     """Try every `of`th stretch of the systems of these sizes, from number `mine` on."""
     part = _Part(met=[0] * len(asked), first=[None] * len(asked))
     for number, stretch in part.stretches(box, sizes, left, mine, of, reduced=reduced):

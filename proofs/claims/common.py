@@ -12,13 +12,13 @@ identity               the outcome of a parametric claim at several dimensions
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any
 
 from ...exact.parametric.stratification import Stratification, stratify
 from ...exact.structure.fault_columns import fault_space
 from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import PairEvidence, comparison_certificate
 from ..evidence.corpus import Evidence
+from ..evidence.parametric import Identity
 from ..evidence.subjects import kernel_once
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -74,14 +74,16 @@ def show_pair(record: PairEvidence) -> Iterator[Certificate]:
 Dimensions = tuple[int, int, int]
 
 
-def identity(bench: Workbench, claim: Callable[[Stratification], Any], quick: Sequence[Dimensions], full: Sequence[Dimensions]) -> Outcome:
+def identity(
+    bench: Workbench, claim: Callable[[Stratification], Identity], quick: Sequence[Dimensions], full: Sequence[Dimensions]
+) -> Outcome:
     """Return IDENTITY for a parametric claim at all these (n, p, m), or what it raises where a stratum or an expansion fails."""
     dimensions = [*quick, *full] if bench.full else list(quick)
     strata = expanded = 0
     for done, (n, p, m) in enumerate(dimensions):
         bench.progress(f"going through all parameter values, n={n} p={p} m={m}", done, len(dimensions))
         record = claim(stratify(n, p, m))
-        strata, expanded = strata + record.strata, expanded + record.expanded + record.rows.expanded
+        strata, expanded = strata + record.strata, expanded + record.expanded
     listed = ", ".join(str(d).replace(" ", "") for d in dimensions)
     words = f"for all parameter values at (n,p,m) = {listed}: {strata} strata, {expanded} identities of sympy expanded again by FLINT"
     return Outcome(Verdict.IDENTITY, words)

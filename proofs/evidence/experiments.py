@@ -84,7 +84,6 @@ class LimitEvidence:
     within: bool
     equal: bool
     past_outputs_within: bool
-    past_outputs_equal: bool
     limit_rank: int
     inputs_right: bool
     state_inputs: tuple[Matrix, Matrix] | None
@@ -163,7 +162,7 @@ def _evidence(
     of_input = found.known.sequence(process.u, process.u, 1, largest)
     true = experiment.system.B.to_json(), experiment.system.D.to_json()
     state_inputs = None if found.true_AC is None else (found.true_AC.B, found.true_AC.D)
-    (joint, seen, inside), (outer_joint, outer_seen, outside) = ranks
+    (joint, seen, inside), (outer_joint, outer_seen, _) = ranks
     return LimitEvidence(
         origin=origin,
         experiment=experiment,
@@ -178,7 +177,6 @@ def _evidence(
         within=joint == seen,
         equal=joint == seen == inside,
         past_outputs_within=outer_joint == outer_seen,
-        past_outputs_equal=outer_joint == outer_seen == outside,
         limit_rank=inside,
         inputs_right=all(one == true for one in inputs),
         state_inputs=state_inputs,
@@ -420,20 +418,11 @@ def experiments_in_order(drives: Sequence[Drive]) -> Iterator[Experiment]:
     """Small experiments, n = m = nu = 1, F = 1, D = 0: p = 1, 2; A = 0, 1/2; B, C, G with entries 0, 1, -1, 2; then the drives."""
     values = ("0", "1", "-1", "2")
     for p in (1, 2):
-        for A in ("0", "1/2"):
-            for B in values:
-                for columns in _columns(values, p):
-                    C, G = columns[:p], columns[p:]
-                    system = {"A": [[A]], "F": [["1"]], "B": [[B]], "C": [[c] for c in C], "G": [[g] for g in G], "D": [["0"]] * p}
-                    for drive in drives:
-                        yield drive(system)
-
-
-def _columns(values: Sequence[str], p: int) -> Iterator[tuple[str, ...]]:
-    columns: list[tuple[str, ...]] = [()]
-    for _ in range(2 * p):
-        columns = [(*column, value) for column in columns for value in values]
-    return iter(columns)
+        for A, B, *columns in product(("0", "1/2"), *[values] * (1 + 2 * p)):
+            C, G = columns[:p], columns[p:]
+            system = {"A": [[A]], "F": [["1"]], "B": [[B]], "C": [[c] for c in C], "G": [[g] for g in G], "D": [["0"]] * p}
+            for drive in drives:
+                yield drive(system)
 
 
 LIMITS = Material("limits", "population limits", _sources, _examined, 10)

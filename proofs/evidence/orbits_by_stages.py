@@ -1,8 +1,6 @@
 """All systems of larger dimensions over GF(2), one of each orbit under every change of basis, without a list of all systems.
 
     orbits_by_stages    A up to similarity, then F up to what leaves A as it is, then the rows [C G] up to what leaves both
-    pairs, orbits_over  the first two stages, and the last one over one pair (A, F)
-    orbit_count         how many there are, by Burnside's lemma
 
 Changes of basis of the outputs leave of [C G] its row space, one of a few thousand subspaces of K^(n+m). So 4 * 10^12 systems with n = 4,
 p = 3, m = 2 come down to those subspaces under the stabilisers of some hundred pairs (A, F). The orbits are those of `exhaustive`, with
@@ -41,11 +39,13 @@ class Pair:
 
 def orbits_by_stages(n: int, p: int, m: int) -> Iterator[Orbit]:
     """Yield a system of every orbit over GF(2), with the number of systems it stands for. Raises ValueError for n + m above LARGEST."""
-    for pair in pairs(n, m):
-        yield from orbits_over(pair, p)
+    if n + m > LARGEST:
+        raise ValueError(f"n + m: got {n + m}, expected at most {LARGEST}")
+    for pair in _pairs(n, m):
+        yield from _orbits_over(pair, p)
 
 
-def orbits_over(pair: Pair, p: int) -> Iterator[Orbit]:
+def _orbits_over(pair: Pair, p: int) -> Iterator[Orbit]:
     """Yield the orbits with p outputs in which this pair (A, F) stands."""
     n, m = pair.F.shape
     spaces = _subspaces(n + m, min(p, n + m))
@@ -60,22 +60,6 @@ def orbits_over(pair: Pair, p: int) -> Iterator[Orbit]:
             C, G = [row[:n] for row in rows], [row[n:] for row in rows]
             system = ResidualSystem.of(pair.A.tolist(), pair.F.tolist(), C, G, field=PrimeField(2), n=n, m=m, p=p)
             yield Orbit(system, pair.size * len(images) * tables)
-
-
-@cache
-def orbit_count(n: int, p: int, m: int) -> int:
-    """Return the number of orbits: the mean number of systems that a change of basis leaves as they are, over one of each class of them."""
-    total, order = 0, 1
-    classes = [_classes(k) for k in (n, p, m)]
-    for of_size in classes:
-        order *= sum(size for _, size in of_size)
-    for (T, a), (U, b), (V, c) in product(*classes):
-        left, right = np.zeros((n + p, n + p), dtype=np.int64), np.zeros((n + m, n + m), dtype=np.int64)
-        left[:n, :n], left[n:, n:], right[:n, :n], right[n:, n:] = T, U, _inverse(T), V
-        moved = np.kron(left, right.T) % 2  # of the rows of [[A, F], [C, G]], one after the other
-        fixed = (moved + np.eye(len(moved), dtype=np.int64)) % 2
-        total += a * b * c * 2 ** (len(fixed) - _rank(fixed))
-    return total // order
 
 
 class _Subspaces:
@@ -127,14 +111,9 @@ def _images(basis: tuple[int, ...], group: Bits) -> Masks:
 
 
 @cache
-def pairs(n: int, m: int) -> tuple[Pair, ...]:
-    """Return one pair (A, F) of every class. Raises ValueError where n + m is above LARGEST."""
-    if n + m > LARGEST:
-        raise ValueError(f"n + m: got {n + m}, expected at most {LARGEST}")
-    return tuple(_pairs(n, m))
-
-
-def _pairs(n: int, m: int) -> Iterator[Pair]:
+def _pairs(n: int, m: int) -> list[Pair]:
+    """Return one pair (A, F) of every class."""
+    found = []
     states, faults = _general_linear(n), _general_linear(m)
     inverses = np.array([_inverse(T) for T in states], dtype=np.int64).reshape(len(states), n, n)
     places = 2 ** np.arange(n * m, dtype=np.int64)[::-1]
@@ -153,7 +132,8 @@ def _pairs(n: int, m: int) -> Iterator[Pair]:
             seen.update(images.tolist())
             at, by = np.nonzero(moved == number)
             stabiliser = np.concatenate([_numbers(back[at], 0, n + m), _numbers(faults[by], n, n + m)], axis=1)
-            yield Pair(A, F, one.size * len(images), stabiliser)
+            found.append(Pair(A, F, one.size * len(images), stabiliser))
+    return found
 
 
 def _numbers(matrices: Bits, start: int, length: int) -> Bits:
@@ -172,17 +152,6 @@ def _general_linear(size: int) -> Bits:
     return np.asarray(table[:, :, None] >> np.arange(size, dtype=np.int64)[::-1] & 1)
 
 
-@cache
-def _classes(size: int) -> tuple[tuple[Bits, int], ...]:
-    """Return an invertible matrix of each class of similar ones, and the size of the class."""
-    found = []
-    for one in orbits(2, size, 0, 0):
-        T = np.array(one.system.A.to_json(), dtype=np.int64).reshape(size, size)
-        if _rank(T) == size:
-            found.append((T, one.size))
-    return tuple(found)
-
-
 def _inverse(matrix: Bits) -> Bits:
     """Return the inverse over GF(2) of an invertible matrix: by Gauss and Jordan beside the unit matrix."""
     size = len(matrix)
@@ -194,18 +163,3 @@ def _inverse(matrix: Bits) -> Bits:
         others[k] = 0
         work ^= others[:, None] * work[k]
     return work[:, size:]
-
-
-def _rank(matrix: Bits) -> int:
-    """Return the rank over GF(2)."""
-    work, rank = matrix % 2, 0
-    for k in range(work.shape[1]):
-        rows = np.flatnonzero(work[rank:, k])
-        if len(rows):
-            pivot = rank + int(rows[0])
-            work[[rank, pivot]] = work[[pivot, rank]]
-            others = work[:, k].copy()
-            others[rank] = 0
-            work = work ^ others[:, None] * work[rank]
-            rank += 1
-    return rank

@@ -14,6 +14,9 @@ their difference is not constant it changes its sign at one place only. Between 
 changes, and neither does the expression, which is made of comparisons by `and`, `or`, `not`, `implies`, `iff`. What it is at a, ..., S, and
 at the last integer up to each place and the two after it, is therefore all that it is from a on. Source: [F75], [VD79].
 
+Where a factor without s is infinite, a product is inf or -inf by the sign of the other factor, which is linear: the place where that is 0
+is one of those places, too.
+
 Of two systems n is the larger number of states: the ranks of each are linear from n + 1 on, and whether their outputs of s samples are
 equal, or those of one among those of the other, stays as it is from n + 1 on, since no kernel row of either has a larger degree than n.
 Of a record n is the number of samples, where that is larger: a Hankel matrix with more block rows has no columns, and the rank 0.
@@ -29,6 +32,7 @@ from ...base.errors import InvalidInput, shorten
 from ..quantities.registry import Kind
 from .nodes import MOST_WINDOWS, Node, Undefined, variables, walk
 
+ZERO = Node("constant", Kind.INTEGER, (), 0, "0", 0)
 LOGIC = ("and", "or", "not", "implies", "iff", "constant", "quantity")
 
 
@@ -144,6 +148,9 @@ def _shift(node: Node, variable: str, value: Callable[[Node, int | None], float]
 
 
 def _comparisons(body: Node, variable: str) -> Iterator[tuple[Node, Node]]:
+    """Yield the sides of comparisons, and each factor with the variable beside 0: its sign is that of a product with inf."""
     for node in walk(body):
         if node.op == "compare" and variable in variables(node):
             yield from zip(node.args, node.args[1:], strict=False)
+        if node.op == "*":
+            yield from ((part, ZERO) for part in node.args if variable in variables(part))

@@ -45,7 +45,7 @@ class Unanswered:
 
 @dataclass
 class Table:
-    """The answers of one expression, or of several, for systems of the same sizes, kept from batch to batch."""
+    """The answers of one expression, or of several, kept from batch to batch, by the sizes and by the numbers that were read."""
 
     answers: dict[object, bool | Values | Unanswered | Wanted] = field(default_factory=dict)
 
@@ -145,8 +145,9 @@ def _decide(
     widths = np.cumsum([one.shape[1] for one in known])[:-1]
     wanting: dict[Any, list[int]] = {}
     groups = np.split(places[np.argsort(which, kind="stable")], np.cumsum(np.bincount(which, minlength=len(distinct)))[:-1])
+    sizes = (*batch.sizes.items(), batch.samples)
     for i, row in enumerate(distinct):
-        name = (keys, row.tobytes())
+        name = (sizes, keys, row.tobytes())
         if name not in table.answers:
             parts = dict(zip(keys, (tuple(map(int, part)) for part in np.split(row, widths)), strict=True)) if known else {}
             table.answers[name] = _answer(ask, _Row(Numbers(batch.sizes, parts, batch.samples), batch.own))

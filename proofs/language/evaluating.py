@@ -13,6 +13,7 @@ what guards against it. `and`, `or`, `implies` look at their second part only wh
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Mapping, Sequence
 from difflib import get_close_matches
 from math import inf, isinf, isnan
@@ -34,6 +35,12 @@ from .nodes import LARGEST_POWER, LARGEST_SIDE, MOST_WINDOWS, Node, Undefined, v
 
 Bound = Mapping[str, int]
 FARTHEST = 2**62  # beyond it an integer is refused
+COMPARED = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq, "!=": operator.ne}
+COMBINED: dict[str, Callable[[Matrix, Matrix], Matrix]] = {"matrix +": operator.add, "matrix -": operator.sub, "matrix @": operator.matmul}
+COMPUTED: dict[str, Callable[..., float]] = {
+    "negative": operator.neg, "abs": abs, "+": operator.add, "-": operator.sub, "*": operator.mul,
+    "//": operator.floordiv, "%": operator.mod,
+}  # fmt: skip
 
 
 class Knows(Protocol):
@@ -260,15 +267,11 @@ def exact_matrix(node: Node, knows: Exactly, bound: Bound) -> Matrix:
     parts = [of(part) for part in node.args]
     check_shapes(node, [part.shape for part in parts])
     match node.op:
-        case "matrix +":
-            return parts[0] + parts[1]
-        case "matrix -":
-            return parts[0] - parts[1]
-        case "matrix @":
-            return parts[0] @ parts[1]
         case "hstack":
             return beside(*parts)
-    return stacked(*parts)
+        case "vstack":
+            return stacked(*parts)
+    return COMBINED[node.op](*parts)
 
 
 def check_shapes(node: Node, shapes: list[tuple[int, int]]) -> None:
@@ -330,25 +333,10 @@ def _compare(node: Node, of: Callable[[Node], Any]) -> bool:
     left = of(node.args[0])
     for op, part in zip(node.value, node.args[1:], strict=True):
         right = of(part)
-        if not _holds(op, left, right):
+        if not COMPARED[op](left, right):
             return False
         left = right
     return True
-
-
-def _holds(op: str, left: Any, right: Any) -> bool:
-    match op:
-        case "<":
-            return bool(left < right)
-        case "<=":
-            return bool(left <= right)
-        case ">":
-            return bool(left > right)
-        case ">=":
-            return bool(left >= right)
-        case "==":
-            return bool(left == right)
-    return bool(left != right)
 
 
 def _gathered(node: Node, of: Callable[[Node], Any]) -> Any:
@@ -367,24 +355,10 @@ def _gathered(node: Node, of: Callable[[Node], Any]) -> Any:
 
 
 def _number(node: Node, values: list[Any]) -> float:
-    match node.op:
-        case "negative":
-            found = -values[0]
-        case "abs":
-            found = abs(values[0])
-        case "+":
-            found = values[0] + values[1]
-        case "-":
-            found = values[0] - values[1]
-        case "*":
-            found = values[0] * values[1]
-        case _:
-            left, right = values
-            if right == 0 or isinf(left) or isinf(right):
-                raise Undefined(
-                    f"got {node.text} = {left} {node.op} {right}; guard it against a divisor 0 and inf, with implies(CONDITION, ...)"
-                )
-            found = left // right if node.op == "//" else left % right
+    if node.op in ("//", "%") and (values[1] == 0 or isinf(values[0]) or isinf(values[1])):
+        text = f"{node.text} = {values[0]} {node.op} {values[1]}"
+        raise Undefined(f"got {text}; guard it against a divisor 0 and inf, with implies(CONDITION, ...)")
+    found = COMPUTED[node.op](*values)
     if isnan(found) or (not isinf(found) and abs(found) > FARTHEST):
         raise Undefined(
             f"got {node.text} of {' and '.join(map(str, values))}, expected an integer below 2^62 or "

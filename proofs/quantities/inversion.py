@@ -1,4 +1,4 @@
-"""These are the delays of left inversion, inf where there is none, and the two words on invertibility. Source: [SM69], [HP98], [K11]."""
+"""These are the delays of left inversion, inf where there is none, and the two words on invertibility. Source: [SM69], [HP98]."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """A certificate as a file of Rocq: its system, statement and witness as terms, the checks of theory/checks recomputed by the kernel.
 
-    COVERED      kind -> what writes it
+    COVERED      the kinds that there are
     exported     the terms of a certificate that the checker has verified just now; raises NotCovered, checker.Rejected, checker.Malformed
     translated   the same of one that is well formed, whatever the checker would say of it: tests see that Rocq, too, finds it false
     written      a file with the theorems about the concrete systems, proved by computation; FILE is its name
@@ -8,31 +8,26 @@
 No string of a certificate reaches the file. Every number goes through the checker's own parser (`checker.rational`, `checker.index`) to an
 integer of Python, and what writes integers (`terms.py`) takes nothing else. The checker's meter bounds the work.
 
-Here are the kinds over Q; those over GF(p) and Q(a) are in export_fields.py. Systems are written with transposed matrices (signals
-are rows in the theory), as integers over one common denominator. Two things in the terms are not in the certificate: words whose outputs
-are independent modulo its prime, which show the lower bounds that `checker.py` finds by elimination, or three minors, where it does so at
-a point; and combinations of demands likewise. `listed.py` computes them. Where window ranks have "nulling", of
-which Rocq knows nothing, exact rows are found and stand in the place of the witness.
+Each kind is written once, of systems as either room of the theory has them: over Q as integers over one common denominator, with lower
+bounds modulo the prime of the certificate (`listed.py`); over GF(p) and Q(a) as numbers of the field (`numbered.py`). Over all of them in
+the second way: zeros (`export_zeros.py`), lines (`export_lines.py`), stability and limits (`export_limits.py`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from operator import mul
 from typing import Any
 
-from ...exact.structure.kernel_rows import kernel_representation
-from ...exact.system.systems import read_system
 from ..trust import checker, checker_structure
-from ..trust.kernel_witnesses import kernel_witness
-from .export_fields import FIELD_KINDS, finite_zeros, infinite_zeros
-from .export_limits import LIMIT_KINDS, schur_stable
+from .export_limits import LIMIT_KINDS
 from .export_lines import left_invertible_line
-from .listed import Integers, Listed, NotCovered, added, independent, times, unit
-from .terms import AT_FIRST, Terms, call, determines, index, indices, natural, naturals, pivoted, sequence, table, vector, whole, window_of
+from .export_zeros import finite_zeros, infinite_zeros
+from .listed import Listed, NotCovered
+from .numbered import Numbered, system_of
+from .terms import AT_FIRST, Definition, Listing, Rows, Terms, determines, index, indices, natural, naturals, window_of
 
 Json = Any
-Kernel = list[tuple[int, Integers]]
+Read = Callable[[Json, Json], Listed | Numbered]  # a system and the witness
 MAX_TEXT = 2**20
 MODULES = (
     "Vocabulary", "CertificatesVocabulary", "Lists", "ListedSystems", "CheckRows", "CheckRanks", "CheckBehaviors", "Solutions",
@@ -64,13 +59,15 @@ def exported(certificate: Json) -> Terms:
 
 def translated(certificate: Json) -> Terms:
     """Return the terms of a certificate whose numbers parse, verified or not. Raises checker.Malformed, checker.Rejected, NotCovered."""
-    kinds = COVERED if _over_rationals(certificate["statement"]) else OVER_FIELDS
-    write = kinds.get(certificate["kind"])
-    if write is None:
-        raise NotCovered(f"the checks in Rocq do not speak of the kind {checker.shorten(certificate['kind'])}")
+    kind, rational = certificate["kind"], _over_rationals(certificate["statement"])
+    if kind not in COVERED or (kind in OF_EXPERIMENTS and not rational):
+        raise NotCovered(f"the checks in Rocq do not speak of the kind {checker.shorten(kind)}")
     checker.begin()
     try:
-        terms = write(certificate["statement"], certificate["witness"])
+        if kind in ALIKE:
+            terms = ALIKE[kind](certificate["statement"], certificate["witness"])
+        else:
+            terms = KINDS[kind](Listed if rational else system_of, certificate["statement"], certificate["witness"])
     except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
         raise checker.Malformed(f"the certificate does not parse: {ascii(str(error))[:80]}") from None
     if sum(len(term) for _, _, term in terms.definitions) > MAX_TEXT:
@@ -95,235 +92,169 @@ def written(terms: Sequence[Terms]) -> str:
 # -- the kinds ---------------------------------------------------------------------------------------------------------
 
 
-def _window_ranks(s: Json, w: Json) -> Terms:
-    if "nulling" in w:  # of which Rocq knows nothing: exact rows prove the same, and whoever finds them is not believed
-        w = kernel_witness(kernel_representation(read_system(s["system"])))
-    system, prime, exact = Listed(s["system"]), _prime(w), "kernel" in w
-    kernel = _kernel(w["kernel" if exact else "kernel_modulo"])
+def _window_ranks(read: Read, s: Json, w: Json) -> Terms:
+    system = read(s["system"], w)
+    check, shown = system.of_all_windows()
     r, etas, ranks = index(s["normal_rank"]), naturals(indices(s["left_minimal_indices"])), naturals(indices(s.get("window_ranks", [])))
     name = system.named("system")
     formula = f"(forall s, \\rank (window {name} s) = s * {natural(r)} + \\sum_(eta <- {etas}) minn s eta)%N"
-    lower = _lower("lower", system, kernel, w, prime) if exact else ("lower", "hints", system.hints(kernel, w["point"], prime))
-    suffix = "" if exact else "_modulo"
-    return Terms(
-        (_named("system", system), _modulus(prime), _rows(kernel), lower),
-        call(f"check_window_ranks{suffix}", *system.sizes, r, etas, ranks, "l system rows lower"),
+    return system.terms(
+        check,
+        (*system.sizes, r, etas, ranks),
+        (*system.modulus(), system.definition("system"), *shown),
         f"{formula} /\\ [seq \\rank (window {name} s) | s <- iota 1 {natural(len(s.get('window_ranks', [])))}] = {ranks}",
-        f"window_ranks{suffix}_sound",
     )
 
 
-def _left_invertible(s: Json, w: Json) -> Terms:
-    system, prime = Listed(s["system"]), _prime(w)
-    statement = f"left_invertible {system.named('system')}"
-    if "point" in w:
-        point, minor = system.pencil_minor(w["point"], prime)
-        return Terms(
-            (_named("system", system), _modulus(prime), ("q", "option Z", point)),
-            call("check_left_invertible_at", *system.sizes, f"l system q {minor}"),
-            statement,
-            "left_invertible_at_sound",
-        )
-    return Terms(
-        (_named("system", system), _modulus(prime), _words("ws", system, system.n + 1, prime)),
-        call("check_left_invertible", *system.sizes, "l system ws"),
-        statement,
-        "left_invertible_sound",
-    )
+def _left_invertible(read: Read, s: Json, w: Json) -> Terms:
+    system = read(s["system"], w)
+    check, shown = system.of_full_rank()
+    definitions = *system.modulus(), system.definition("system"), *shown
+    return system.terms(check, system.sizes, definitions, f"left_invertible {system.named('system')}")
 
 
-def _not_left_invertible(s: Json, w: Json) -> Terms:
-    system = Listed(s["system"])
-    scale = checker.common_denominator(checker.rational(x, "witness")[1] for part in (w["state"], w["fault"]) for one in part for x in one)
-    xs, vs = ([_scaled(one, scale * system.den**k) for k, one in enumerate(reversed(w[key]))] for key in ("state", "fault"))
-    return Terms(
-        (_named("system", system), ("xs", "seq vector", table([*xs, [0] * system.n])), ("vs", "seq vector", table(vs))),
-        call("check_not_left_invertible", *system.sizes, "system xs vs"),
-        f"~ left_invertible {system.named('system')}",
-        "not_left_invertible_sound",
-    )
+def _not_left_invertible(read: Read, s: Json, w: Json) -> Terms:
+    system = read(s["system"], w)
+    xs, vs = system.silent()
+    definitions = system.definition("system"), _table(system, "xs", [*xs, system.unit(system.n, -1)]), _table(system, "vs", vs)
+    return system.terms("not_left_invertible", system.sizes, definitions, f"~ left_invertible {system.named('system')}")
 
 
-def _inclusion(s: Json, w: Json) -> Terms:
-    inner, outer, prime = Listed(s["inner"]), Listed(s["outer"]), _prime(w)
-    a, b, kernel = inner.named("inner"), outer.named("outer"), _kernel(w["kernel"])
-    return Terms(
-        (_named("inner", inner), _named("outer", outer), _modulus(prime), _rows(kernel), _lower("lower", outer, kernel, w, prime)),
-        call("check_inclusion", inner.n, inner.m, *outer.sizes, "l inner outer rows lower"),
+def _inclusion(read: Read, s: Json, w: Json) -> Terms:
+    inner, outer = read(s["inner"], w), read(s["outer"], w)
+    a, b, kernel = inner.named("inner"), outer.named("outer"), outer.kernel(w["kernel"])
+    systems = inner.definition("inner"), outer.definition("outer")
+    return outer.terms(
+        "inclusion",
+        (inner.n, inner.m, *outer.sizes),
+        (*outer.modulus(), *systems, *outer.rows(kernel), outer.lower("", kernel)),
         f"(forall s r, word {a} s r -> word {b} s r) /\\ (forall r, behavior {a} r -> behavior {b} r)",
-        "inclusion_sound",
     )
 
 
-def _equality(s: Json, w: Json) -> Terms:
-    first, second, prime = Listed(s["first"]), Listed(s["second"]), _prime(w)
-    a, b, kernel = first.named("first"), second.named("second"), _kernel(w["kernel"])
-    shape, definitions = (
-        (first.n, first.m, *second.sizes),
-        (_named("first", first), _named("second", second), _modulus(prime), _rows(kernel)),
-    )
+def _equality(read: Read, s: Json, w: Json) -> Terms:
+    first, second = read(s["first"], w), read(s["second"], w)
+    a, b, kernel = first.named("first"), second.named("second"), first.kernel(w["kernel"])
+    shape = first.n, first.m, *second.sizes
+    shared = [*first.modulus(), first.definition("first"), second.definition("second"), *first.rows(kernel)]
     if "window" not in s:
-        lower = (_lower("lower", first, kernel, w, prime), _lower("lower'", second, kernel, w, prime))
-        statement = f"(forall s, same_words {a} {b} s) /\\ same_behavior {a} {b}"
-        check = call("check_equality", *shape, "l first second rows lower lower'")
-        return Terms((*definitions, *lower), check, statement, "equality_sound")
+        second.hinted()
+        lower = first.lower("", kernel), second.lower("'", kernel)
+        return first.terms("equality", shape, [*shared, *lower], f"(forall s, same_words {a} {b} s) /\\ same_behavior {a} {b}")
     window = window_of(s["window"])
-    words = (_words("ws", first, window, prime), _words("ws'", second, window, prime))
-    statement = f"same_words {a} {b} {natural(window)}"
-    check = call("check_window_equality", *shape, window, "l first second rows ws ws'")
-    return Terms((*definitions, *words), check, statement, "window_equality_sound")
+    words = [(ws, "seq sampled_word", one.words(window)) for ws, one in (("ws", first), ("ws'", second))]
+    return first.terms("window_equality", (*shape, window), [*shared, *words], f"same_words {a} {b} {natural(window)}")
 
 
-def _difference(s: Json, w: Json) -> Terms:
-    first, second, window = Listed(s["first"]), Listed(s["second"]), window_of(s["window"])
-    x0, v = _integral_word(first, w)
-    return Terms(
-        (
-            _named("first", first),
-            _named("second", second),
-            ("x", "vector", vector(x0)),
-            ("vs", "seq vector", table(v)),
-            ("c", "seq vector", table(_cleared(w["row"])[0])),
-        ),
-        call("check_difference", first.n, first.m, *second.sizes, window, "first second x vs c"),
+def _difference(read: Read, s: Json, w: Json) -> Terms:
+    first, second, window = read(s["first"], w), read(s["second"], w), window_of(s["window"])
+    x, vs = first.word(w["x0"], w["v"])
+    systems, row = (first.definition("first"), second.definition("second")), first.multiple(w["row"], first.p)
+    return first.terms(
+        "difference",
+        (first.n, first.m, *second.sizes, window),
+        (*systems, _vector(first, "x", x), _table(first, "vs", vs), _table(first, "c", row)),
         f"exists2 r, word {first.named('first')} {natural(window)} r & ~ word {second.named('second')} {natural(window)} r",
-        "difference_sound",
     )
 
 
-def _fault_space(s: Json, w: Json) -> Terms:
-    system, prime, window = Listed(s["system"]), _prime(w), None if s["window"] is None else window_of(s["window"])
-    width = system.n + system.p
-    given = _kernel(w["kernel"])
-    kernel = [row for _, row in given if window is None or "point" not in w or len(row) <= window]
-    basis, d = _cleared(s["basis"])
-    pivots = [next((j for j, x in enumerate(row) if x), width) for row in basis]
-    beyond = max((len(row) - 1 for row in kernel), default=0) if window is None else window
-    checker.charge(200 * sum(map(len, kernel)) * (width + 1) ** 2 * (1 + beyond * system.den.bit_length() // 60))
-    demands = [demand for row in kernel for demand in system.demands(row)]
-    checker.charge(len(demands) * (width + len(demands)) * (100 + 2 * width), 100 * len(demands) * (width + len(demands)))
-    combinations = pivoted(independent(demands, width, prime))
-    check = "check_limit" if window is None else "check_solutions"
-    at, shape = "s" if window is None else natural(window), f"{natural(len(basis))} {natural(width)}"
-    space = f"spans_solutions {system.named('system')} {at} (fraction d {shape} basis)"
-    return Terms(
+def _fault_space(read: Read, s: Json, w: Json) -> Terms:
+    system, window = read(s["system"], w), None if s["window"] is None else window_of(s["window"])
+    width, kernel = system.n + system.p, system.kernel(w["kernel"])
+    counted = system.counted(kernel, window)
+    denominator, basis = system.scaled(s["basis"], width)
+    pivots = [next((j for j, x in enumerate(row) if x != 0), width) for row in basis]
+    beyond = max((len(row) - 1 for _, row in counted), default=0) if window is None else window
+    conditions = system.conditions(counted, beyond)
+    at, meant = "s" if window is None else natural(window), f"({system.matrix_of} {natural(len(basis))} {natural(width)} basis)"
+    space = f"spans_solutions {system.named('system')} {at} {meant}"
+    return system.terms(
+        "limit" if window is None else "solutions",
+        (*system.sizes, beyond),
         (
-            _named("system", system),
-            _modulus(prime),
-            _rows(given),
-            _lower("lower", system, given, w, prime, window),
-            ("d", "Z", whole(d)),
-            ("basis", "table", table(basis)),
-            ("combinations", "seq (nat * vector)", combinations),
+            *system.modulus(),
+            system.definition("system"),
+            *system.rows(kernel, window),
+            system.lower("", kernel, window),
+            *denominator,
+            _table(system, "basis", basis),
+            ("pivots", "seq nat", naturals(pivots)),
+            _combinations(system, conditions, width),
         ),
-        call(check, *system.sizes, beyond, "l system rows lower d basis", naturals(pivots), "combinations"),
         f"forall s, ({natural(beyond)} < s)%N -> {space}" if window is None else space,
-        "limit_sound" if window is None else "solutions_sound",
     )
 
 
-def _first_column_only(s: Json, w: Json) -> Terms:
-    system, prime, window = Listed(s["system"]), _prime(w), window_of(s["window"])
-    (z,), d = _cleared([s["column"]])
-    kernel = _kernel(w["kernel"])
-    name, f, g = system.named("system"), f"(recorded d {natural(system.n)} f)", f"(recorded d {natural(system.p)} g)"
-    response = f"output (with_faults {name} {f} {g}) 0 {AT_FIRST}"
-    return Terms(
-        (
-            _named("system", system),
-            _modulus(prime),
-            _rows(kernel),
-            _lower("lower", system, kernel, w, prime, window),
-            ("d", "Z", whole(d)),
-            ("f", "vector", vector(z[: system.n])),
-            ("g", "vector", vector(z[system.n :])),
-        ),
-        call("check_first_column", *system.sizes, window, "l system rows lower d f g"),
-        f"word {name} {natural(window)} ({response}) /\\ ~ solves {name} {natural(window)} {f} {g}",
-        "first_column_sound",
+def _first_column_only(read: Read, s: Json, w: Json) -> Terms:
+    system, window = read(s["system"], w), window_of(s["window"])
+    n, p, kernel = system.n, system.p, system.kernel(w["kernel"])
+    denominator, (z,) = system.scaled([s["column"]], n + p)
+    name, f, g = system.named("system"), f"({system.vector_of} {natural(n)} first)", f"({system.vector_of} {natural(p)} rest)"
+    shown = *system.rows(kernel, window), system.lower("", kernel, window), *denominator
+    return system.terms(
+        "first_column",
+        (*system.sizes, window),
+        (*system.modulus(), system.definition("system"), *shown, _vector(system, "first", z[:n]), _vector(system, "rest", z[n:])),
+        f"word {name} {natural(window)} (output (with_faults {name} {f} {g}) 0 {AT_FIRST}) /\\ ~ solves {name} {natural(window)} {f} {g}",
     )
 
 
-def _inversion_delay(s: Json, w: Json) -> Terms:
-    system, delay = Listed(s["system"]), None if s["delay"] is None else index(s["delay"], checker.MAX_DIMENSION)
-    known = {"known": "true", "unknown": "false"}[s["initial_state"]]
-    name = system.named("system")
-    x0, v = _integral_word(system, w["word"]) if delay != 0 else ([], [])
-    definitions = _named("system", system), ("x", "vector", vector(x0)), ("vs", "seq vector", table(v))
+def _inversion_delay(read: Read, s: Json, w: Json) -> Terms:
+    system, delay = read(s["system"], w), None if s["delay"] is None else index(s["delay"], checker.MAX_DIMENSION)
+    known, name = {"known": "true", "unknown": "false"}[s["initial_state"]], system.named("system")
+    x, vs = system.word(w["word"]["x0"], w["word"]["v"]) if delay != 0 else ([], [])
+    word = _vector(system, "x", x), _table(system, "vs", vs)
     if delay is None:
-        statement = f"forall j, (j <= {natural(system.n)})%N -> ~ {determines(name, known, 'j')}"
-        return Terms(definitions, call("check_no_delay", *system.sizes, known, "system x vs"), statement, "no_delay_sound")
-    rows, least = [], natural(delay)
-    for given in w["inverse"] or [[]] * system.m:
-        (row,), scale = _cleared([given])
-        rows.append(f"({whole(scale)}, {table(row[k * system.p : (k + 1) * system.p] for k in range(delay + 1))})")
-    return Terms(
-        (*definitions, ("rows", "seq (Z * seq vector)", sequence(rows))),
-        call("check_delay", *system.sizes, known, delay, "system rows x vs"),
+        none = f"forall j, (j <= {natural(system.n)})%N -> ~ {determines(name, known, 'j')}"
+        return system.terms("no_delay", (*system.sizes, known), (system.definition("system"), *word), none)
+    rows, least = system.inverses(w["inverse"] or [[]] * system.m, delay), natural(delay)
+    return system.terms(
+        "delay",
+        (*system.sizes, known, delay),
+        (system.definition("system"), rows, *word),
         f"[/\\ ({least} <= {natural(system.n)})%N, {determines(name, known, least)} & "
         f"forall j, (j < {least})%N -> ~ {determines(name, known, 'j')}]",
-        "delay_sound",
     )
 
 
-def _matrix_rank(s: Json, w: Json) -> Terms:
-    system, prime, r, name = Listed(s["system"]), _prime(w), index(s["rank"]), s["matrix"]
+def _matrix_rank(read: Read, s: Json, w: Json) -> Terms:
+    system, r, name = read(s["system"], w), index(s["rank"]), s["matrix"]
     checker.expect(type(name) is str and name in checker_structure.MATRICES, "matrix: unknown name")
-    n, m, p = system.sizes
-    samples, e, given = window_of(s["window"]) if "window" in s else n, system.den, list[tuple[str, str, str]]()
+    (n, m, p), meant = system.sizes, system.named("system")
+    samples = window_of(s["window"]) if "window" in s else n
     system.bounded(samples)
-    meant, data, sizes = system.named("system"), "", [n, m, p, samples, r]
+    given, sizes, before, wide = list[Definition](), [n, m, p], 0, p
     if name in ("observability", "toeplitz", "window"):
-        rows = [] if name == "toeplitz" else [system.response(unit(n, i), [0] * m, samples, prime) for i in range(n)]
-        if name != "observability":
-            from_rest = [system.response([0] * n, unit(m, i), samples, prime) for i in range(m)]
-            rows += [[0] * (p * j) + response[: p * (samples - j)] for j in range(samples) for response in from_rest]
-        width, weights = samples * p, [e ** (samples - 1 - k) for k in range(samples) for _ in range(p)]
-        matrix = f"{ {'observability': 'O', 'toeplitz': 'T', 'window': 'window'}[name] } {meant} {natural(samples)}"
+        rows = ([] if name == "toeplitz" else system.free(samples)) + ([] if name == "observability" else system.forced(samples))
+        letter = {"observability": "O", "toeplitz": "T", "window": "window"}[name]
+        matrix, sizes = f"{letter} {meant} {natural(samples)}", sizes if name == "observability" else [*sizes, samples]
     elif name == "reachability":
-        blocks = [system.F]
-        while len(blocks) < n:
-            blocks.append([added(times(row, system.A, n), [0] * n, prime) for row in blocks[-1]])
-        rows = [row for block in blocks[:n] for row in block]
-        width, weights, matrix = n, [1] * n, f"reachability {meant}"
+        rows, matrix, before, samples = system.reached(), f"reachability {meant}", n, 0
     else:
-        (x0, *v), d = _cleared([s["x0"], *s["v"]])
-        count = len(v) - samples + 1
+        denominator, x, vs = system.signal(s["x0"], s["v"])
+        count = len(vs) - samples + 1
         checker.expect(count > 0, "window: more than there are samples")
-        checker.charge(len(v) * ((n + m + p + 1) ** 2 * 100 + len(v) * e.bit_length() ** 2 // 100))
-        checker.charge(count * (n + samples * (m + p) + count) * (200 + 2 * count), 100 * count * (n + samples * (m + p) + count))
-        states, faults, outputs = system.trajectory(x0, v, prime)
-        given += [("d", "Z", whole(d)), ("x", "vector", vector(x0)), ("vs", "seq vector", table(v))]
-        sizes, data = [n, m, p, count, samples, r], "d x vs"
-        trajectory = f"(recorded d {natural(n)} x) (fun k => recorded d {natural(m)} (nth [::] vs k))"
+        system.hankel_bounded(count, samples)
+        states, faults, outputs = system.trajectory(x, vs)
+        given, sizes = [*denominator, _vector(system, "x", x), _table(system, "vs", vs)], [*sizes, count, samples]
+        trajectory = f"({system.vector_of} {natural(n)} x) ({system.signal_of.format(m=natural(m))})"
         tail, wide = (outputs, p) if name == "residual-hankel" else (faults, m)
-        rows = [[x for one in tail[i : i + samples] for x in one] for i in range(count)]
-        width, weights = samples * wide, [e ** (samples - 1 - k) for k in range(samples) for _ in range(wide)]
+        rows = [[e for one in tail[i : i + samples] for e in one] for i in range(count)]
         matrix = f"hankel {natural(count)} {natural(samples)} (output {meant} {trajectory})"
         if name == "excitation":
-            rows = [states[i] + row for i, row in enumerate(rows)]
-            width, weights = n + width, [e ** max(samples - 1, 0)] * n + weights
+            rows, before = [states[i] + row for i, row in enumerate(rows)], n
             matrix = f"excitation {meant} {trajectory} {natural(count)} {natural(samples)}"
-    if name in ("observability", "reachability"):
-        sizes = [n, m, p, r]
-    lemma = {"residual-hankel": "hankel"}.get(name, name)
-    checker.charge(len(weights) * (samples * e.bit_length()) ** 2 // 1000, len(weights) * samples * e.bit_length() // 8)
-    nulls = [(index(row["pivot"]), list(map(mul, _integers(row["row"]), weights))) for row in w["left_null"]]
-    return Terms(
-        (
-            _named("system", system),
-            _modulus(prime),
-            *given,
-            ("nulls", "seq (nat * vector)", pivoted(nulls)),
-            ("combinations", "seq (nat * vector)", pivoted(independent(rows, width, prime))),
-        ),
-        call(f"check_{lemma}", *sizes, "l system", data, "nulls combinations"),
+    nulls = system.nulls(w["left_null"], before, samples, wide)
+    shown = ("nulls", "seq (nat * vector)", system.pivoted(nulls)), _combinations(system, rows, before + samples * wide)
+    return system.terms(
+        name.removeprefix("residual-"),
+        (*sizes, r),
+        (*system.modulus(), system.definition("system"), *given, *shown),
         f"\\rank ({matrix}) = {natural(r)}%N",
-        f"{lemma}_sound",
     )
 
 
-COVERED: dict[str, Callable[[Json, Json], Terms]] = {
+KINDS: dict[str, Callable[[Read, Json, Json], Terms]] = {
     "window-ranks": _window_ranks,
     "left-invertible": _left_invertible,
     "not-left-invertible": _not_left_invertible,
@@ -335,69 +266,28 @@ COVERED: dict[str, Callable[[Json, Json], Terms]] = {
     "fault-space": _fault_space,
     "first-column-only": _first_column_only,
     "matrix-rank": _matrix_rank,
+}
+# Over every field alike: over Q, too, they are of numbers of a field.
+ALIKE: dict[str, Callable[[Json, Json], Terms]] = {
     "finite-zeros": finite_zeros,
     "infinite-zeros": infinite_zeros,
     "left-invertible-line": left_invertible_line,
     **LIMIT_KINDS,
 }
-OVER_FIELDS = {**FIELD_KINDS, "schur-stable": schur_stable, "left-invertible-line": left_invertible_line}
+COVERED = {*KINDS, *ALIKE}
+OF_EXPERIMENTS = ("moesp-limit", "input-limit")  # covered over Q alone
 
 
 # -- parts -------------------------------------------------------------------------------------------------------------
 
 
-def _prime(w: Json) -> int:
-    prime = index(w["prime"], checker.MAX_PRIME)
-    checker.require(checker.is_prime(prime), f"{prime} is not a prime")
-    return prime
+def _vector(system: Listing, name: str, row: list[Any]) -> Definition:
+    return name, "vector", system.vector(row)
 
 
-def _integers(values: Json) -> list[int]:
-    return [checker.rational(value, "a number", integral=True)[0] for value in values]
+def _table(system: Listing, name: str, rows: Rows) -> Definition:
+    return name, "seq vector", system.table(rows)
 
 
-def _kernel(rows: Json) -> Kernel:
-    """Return pivots and coefficients of kernel rows."""
-    return [(index(row["pivot"]), [_integers(c) for c in row["coefficients"]]) for row in rows]
-
-
-def _rows(kernel: Kernel) -> tuple[str, str, str]:
-    return "rows", "seq kernel_row", sequence(f"({natural(pivot)}%N, {table(row)})" for pivot, row in kernel)
-
-
-def _lower(name: str, system: Listed, kernel: Kernel, w: Json, prime: int, window: int | None = None) -> tuple[str, str, str]:
-    """Return what shows a lower bound: the hints of the witness, or words, of one more sample than there are states or of a window."""
-    if "point" in w:
-        return name, "evidence", f"inr ({system.hints(kernel, w['point'], prime)})"
-    return name, "evidence", f"inl {system.words(system.n + 1 if window is None else window, prime)}"
-
-
-def _named(name: str, system: Listed) -> tuple[str, str, str]:
-    return name, "listed", system.term
-
-
-def _words(name: str, system: Listed, samples: int, prime: int) -> tuple[str, str, str]:
-    return name, "seq sampled_word", system.words(samples, prime)
-
-
-def _modulus(prime: int) -> tuple[str, str, str]:
-    return "l", "Z", whole(prime)
-
-
-def _scaled(values: Json, factor: int) -> list[int]:
-    """Return RATIONALs times a factor that all denominators divide."""
-    checker.charge(len(values) * (200 + factor.bit_length() ** 2 // 500), len(values) * factor.bit_length() // 4)
-    return [top * factor // bottom for top, bottom in (checker.rational(x, "a number") for x in values)]
-
-
-def _cleared(rows: Json) -> tuple[Integers, int]:
-    """Return rows of RATIONALs as integers over their common denominator."""
-    den = checker.common_denominator(checker.rational(x, "a number")[1] for row in rows for x in row)
-    return [_scaled(row, den) for row in rows], den
-
-
-def _integral_word(system: Listed, word: Json) -> tuple[list[int], Integers]:
-    """Return a word of the integer system: v(k) times the k-th power of its denominator, all times what clears fractions."""
-    _, scale = _cleared([word["x0"], *word["v"]])
-    checker.charge((len(word["v"]) ** 3 + 1) * system.den.bit_length() ** 2 // 2000)
-    return _scaled(word["x0"], scale), [_scaled(v, scale * system.den**k) for k, v in enumerate(word["v"])]
+def _combinations(system: Listing, rows: Rows, width: int) -> Definition:
+    return "combinations", "seq (nat * vector)", system.pivoted(system.independent(rows, width))

@@ -25,7 +25,7 @@ from ...exact.limits.lyapunov import stein
 from ...exact.system.modular import reduce_matrix
 from ..trust import checker, checker_limits
 from .numbered import Numbered, Numbers, independent
-from .terms import Terms, call, index, natural, sequence, vector
+from .terms import Terms, call, index, natural, sequence, whole
 
 Json = Any
 COMPLEX = "forall (C : numClosedFieldType) (embed : {rmorphism K -> C}),"
@@ -36,7 +36,7 @@ INTO_COMPLEX = "(fun r => embed (value r) : C)"
 
 def schur_stable(s: Json, w: Json) -> Terms:
     """Write schur-stable: a polynomial with its roots inside the unit circle vanishes at A, for every root a of the minimal polynomial."""
-    system = Numbered(s["system"])
+    system = Numbered(s["system"], w)
     system.read.field.irreducible(w)
     checker.expect(not system.read.field.prime, "field: a finite one has no unit circle")
     size, order = natural(system.n), system.n * system.numbers.field.degree
@@ -45,7 +45,7 @@ def schur_stable(s: Json, w: Json) -> Terms:
     return Terms(
         (
             system.numbers.definition,
-            ("system", f"listing ({system.numbers.name})", system.term),
+            system.definition("system"),
             ("h", "seq Z", _descending(fmpq_poly(f))),
         ),
         call("is_stable", system.n, "(tA system) h"),
@@ -186,7 +186,7 @@ def _descending(f: Any) -> str:
     common = checker.common_denominator(int(c.q) for c in coefficients)
     values = [int(c * common) for c in coefficients]
     content = reduce(gcd, values, 0)
-    return vector(value // content for value in reversed(values))
+    return sequence(whole(value // content) for value in reversed(values))
 
 
 def plain(matrix: Matrix) -> Matrix:
@@ -217,7 +217,7 @@ class Process:
         read = checker_limits.Experiment(data)
         read.field.irreducible(w)
         read.field.reduce(w)
-        plant = Numbered({name: value for name, value in data.items() if name not in read.OWN})
+        plant = Numbered({name: value for name, value in data.items() if name not in read.OWN}, w)
         states = read.n + (len(read.chain) - 1) * (read.nu + read.m + read.p)
         channels = read.chain[0][0].nc
         samples = read.past + read.s if samples is None else samples

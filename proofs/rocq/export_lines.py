@@ -21,9 +21,8 @@ from typing import Any
 from ...exact.algebra.matrices import Matrix, beside, row_echelon
 from ...exact.algebra.polynomials import Poly, PolyMatrix, add, divide, multiply, smith_diagonal, trimmed
 from ..trust import checker, checker_structure
-from .export_fields import named, system_of, terms_over
-from .numbered import Numbered, Numbers, Rows, independent
-from .terms import Terms, call, index, indices, sequence
+from .numbered import Numbered, Numbers, independent, system_of, terms_over
+from .terms import Rows, Terms, call, index, indices, sequence
 
 Json = Any
 
@@ -71,7 +70,7 @@ def left_invertible_line(s: Json, w: Json) -> Terms:
     return terms_over(
         numbers,
         [
-            named("first", first), named("second", second),
+            first.definition("first"), second.definition("second"),
             *((name, f"seq (line_point ({numbers.name}))", sequence(one.term(numbers) for one in some))
               for name, some in (("points", told), ("others", exchanged if told else []))),
         ],

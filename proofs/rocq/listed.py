@@ -1,24 +1,27 @@
-"""Systems as the theory of the checks lists them: integers over one common denominator, signals as rows.
+"""Systems over Q as the theory of theory/checks lists them: integers over one common denominator, signals as rows, bounds modulo a prime.
 
     Listed        a system over Q: its term, its words modulo a prime, the conditions of its kernel rows, the hints that Rocq asks of them
     NotCovered    raised where the checks in Rocq do not speak of a kind or a field
-    independent   rows reduced modulo a prime: pivots, and the combinations that lead there
-    unit, times, added   a row of the identity, a row times a matrix, a sum modulo a prime
-    Integers      a list of rows of integers
 
-What is computed here is believed by nobody: Rocq sees whether it serves.
+Two things in the terms are not in a certificate: words whose outputs are independent modulo its prime, which show the lower bounds that
+`checker.py` finds by elimination, or three minors, where it does so at a point; and combinations of conditions likewise. What is computed
+here is believed by nobody: Rocq sees whether it serves.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import cached_property
+from operator import mul
 from typing import Any
 
 from flint import nmod_mat
 
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.systems import read_system
 from ..trust import checker
-from .terms import natural, naturals, sequence, table, vector, whole
+from ..trust.kernel_witnesses import kernel_witness
+from .terms import Definition, Kernel, Listing, Terms, call, index, naturals, sequence, whole
 
 Json = Any
 Integers = list[list[int]]
@@ -28,19 +31,48 @@ class NotCovered(Exception):
     """Raised where the checks in Rocq do not speak of this kind or this field."""
 
 
-class Listed:
-    """A SYSTEM over Q is listed with matrices transposed and multiplied by their common denominator."""
+class Listed(Listing):
+    """A SYSTEM over Q is listed with matrices multiplied by their common denominator."""
 
-    def __init__(self, data: Json) -> None:
+    kind, meaning, vector_of, matrix_of = "listed", "meant", "recorded d", "fraction d"
+    signal_of = "fun k => recorded d {m} (nth [::] vs k)"
+    number = staticmethod(whole)
+
+    def __init__(self, data: Json, witness: Json) -> None:
         system = checker.SUBJECTS["system"](data)
         if system.field.key != "Q":
             raise NotCovered("the checks in Rocq are over the rational numbers only")
-        self.sizes = self.n, self.m, self.p = system.n, system.m, system.p
-        blocks = (system.A, system.F, system.C, system.G)
+        super().__init__((system.n, system.m, system.p), witness)
+        self.data, blocks = data, (system.A, system.F, system.C, system.G)
         self.den = checker.common_denominator(block.den for block in blocks)
         self.A, self.F, self.C, self.G = (
             [[row[j] * (self.den // block.den) for row in block.rows] for j in range(block.nc)] for block in blocks
         )
+
+    @cached_property
+    def prime(self) -> int:
+        """The prime of the witness. Raises checker.Rejected where it is none."""
+        prime = index(self.witness["prime"], checker.MAX_PRIME)
+        checker.require(checker.is_prime(prime), f"{prime} is not a prime")
+        return prime
+
+    def terms(self, check: str, numbers: Sequence[int | str], definitions: Sequence[Definition], statement: str) -> Terms:
+        """Return the terms of a statement: its check is given the numbers, and then what is defined."""
+        given = (name for name, *_ in definitions)
+        return Terms((*definitions,), call(f"check_{check}", *numbers, *given), statement, f"{check}_sound")
+
+    @property
+    def term(self) -> str:
+        """The system as a term."""
+        return f"Listed {whole(self.den)} {' '.join(map(self.table, (self.A, self.F, self.C, self.G)))}"
+
+    def unit(self, size: int, i: int) -> list[int]:
+        """Return a row of the identity, or zeros where i < 0."""
+        return unit(size, i)
+
+    def modulus(self) -> list[Definition]:
+        """Return the prime that lower bounds are shown modulo."""
+        return [("l", "Z", whole(self.prime))]
 
     def bounded(self, samples: int) -> None:
         """Charges for simulating all states and faults on so many samples, and for eliminating in the windows that they make."""
@@ -48,45 +80,110 @@ class Listed:
         checker.charge((self.n + self.m) * samples * (self.n + self.p + 1) * (self.n + self.m + 1) * 60)
         checker.charge(height * (width + height) * (100 + 2 * min(height, width)), 100 * height * (width + height))
 
-    @cached_property
-    def term(self) -> str:
-        """As a term of type listed."""
-        return f"Listed {whole(self.den)} {' '.join(map(table, (self.A, self.F, self.C, self.G)))}"
+    def kernel(self, rows: Json) -> Kernel:
+        """Return pivots and coefficients of kernel rows."""
+        return [(index(row["pivot"]), [_integers(c) for c in row["coefficients"]]) for row in rows]
 
-    def named(self, name: str) -> str:
-        """Return the system in the theory that the list of that name means."""
-        return f"(meant {natural(self.n)} {natural(self.m)} {natural(self.p)} {name})"
+    def rows(self, kernel: Kernel, window: int | None = None) -> list[Definition]:
+        """Return the kernel rows as they are."""
+        return [self.kernel_rows(kernel)]
 
-    def response(self, state: list[int], fault: list[int], samples: int, prime: int) -> list[int]:
-        """Return the outputs modulo the prime, one after the other, of a state and a fault at time 0."""
-        found = list[int]()
-        for _ in range(samples):
-            found += added(times(state, self.C, self.p), times(fault, self.G, self.p), prime)
-            state, fault = added(times(state, self.A, self.n), times(fault, self.F, self.n), prime), [0] * self.m
-        return found
+    def lower(self, mark: str, kernel: Kernel, window: int | None = None) -> Definition:
+        """Return what shows a lower bound: the hints of the witness, or words, of one more sample than there are states or of a window."""
+        if "point" in self.witness:
+            return f"lower{mark}", "evidence", f"inr ({self.hints(kernel)})"
+        return f"lower{mark}", "evidence", f"inl {self.words(self.n + 1 if window is None else window)}"
 
-    def trajectory(self, state: list[int], faults: Integers, prime: int) -> tuple[Integers, Integers, Integers]:
+    def of_all_windows(self) -> tuple[str, list[Definition]]:
+        """Return the check of window ranks, and what it is shown. Of "nulling" Rocq knows nothing: exact rows prove the same, and whoever
+        finds them is not believed."""
+        if "nulling" in self.witness:
+            self.witness = kernel_witness(kernel_representation(read_system(self.data)))
+        if "kernel" in self.witness:
+            kernel = self.kernel(self.witness["kernel"])
+            return "window_ranks", [self.kernel_rows(kernel), self.lower("", kernel)]
+        kernel = self.kernel(self.witness["kernel_modulo"])
+        return "window_ranks_modulo", [self.kernel_rows(kernel), ("lower", "hints", self.hints(kernel))]
+
+    def of_full_rank(self) -> tuple[str, list[Definition]]:
+        """Return the check of left-invertibility, and what it is shown: a minor at the point of a witness that has one, else words."""
+        if "point" in self.witness:
+            parts = zip(("q", "rows", "columns", "minor"), ("option Z", "seq nat", "seq nat", "Z"), self.pencil_minor(), strict=True)
+            return "left_invertible_at", [*parts]
+        return "left_invertible", [("ws", "seq sampled_word", self.words(self.n + 1))]
+
+    def hinted(self) -> None:
+        """Do nothing: what hints show Rocq is told, too."""
+
+    def scaled(self, rows: Json, width: int) -> tuple[list[Definition], Integers]:
+        """Return rows of RATIONALs as integers, and their common denominator d as a definition."""
+        found, d = _cleared(rows)
+        return [("d", "Z", whole(d))], found
+
+    def signal(self, state: Json, faults: Json) -> tuple[list[Definition], list[int], Integers]:
+        """Return a state and faults as `scaled` does."""
+        d, (x, *vs) = self.scaled([state, *faults], 0)
+        return d, x, vs
+
+    def word(self, state: Json, faults: Json) -> tuple[list[int], Integers]:
+        """Return a word of the integer system: v(k) times the k-th power of its denominator, all times what clears fractions."""
+        _, scale = _cleared([state, *faults])
+        checker.charge((len(faults) ** 3 + 1) * self.den.bit_length() ** 2 // 2000)
+        return _scaled(state, scale), [_scaled(v, scale * self.den**k) for k, v in enumerate(faults)]
+
+    def silent(self) -> tuple[Integers, Integers]:
+        """Return states and faults of a witness that no output shows, from the last on."""
+        both = self.witness["state"], self.witness["fault"]
+        scale = checker.common_denominator(checker.rational(x, "witness")[1] for part in both for one in part for x in one)
+        xs, vs = ([_scaled(one, scale * self.den**k) for k, one in enumerate(reversed(part))] for part in both)
+        return xs, vs
+
+    def multiple(self, rows: Json, width: int) -> Integers:
+        """Return rows without fractions."""
+        return _cleared(rows)[0]
+
+    def inverses(self, rows: Json, delay: int) -> Definition:
+        """Return the rows of a left inverse, by samples, each with its denominator."""
+        written = []
+        for given in rows:
+            (row,), scale = _cleared([given])
+            written.append(f"({whole(scale)}, {self.table(row[k * self.p : (k + 1) * self.p] for k in range(delay + 1))})")
+        return "rows", "seq (Z * seq vector)", sequence(written)
+
+    def nulls(self, rows: Json, before: int, samples: int, wide: int) -> list[tuple[int, list[int]]]:
+        """Return what annihilates a matrix with `before` columns and then some for each sample, weighed as these are."""
+        e, width = self.den, before + samples * wide
+        checker.charge(width * (samples * e.bit_length()) ** 2 // 1000, width * samples * e.bit_length() // 8)
+        weights = [e ** max(samples - 1, 0)] * before + [e ** (samples - 1 - k) for k in range(samples) for _ in range(wide)]
+        return [(index(row["pivot"]), list(map(mul, _integers(row["row"]), weights))) for row in rows]
+
+    def independent(self, rows: Integers, width: int) -> list[tuple[int, list[int]]]:
+        """Reduce rows modulo the prime, in their first `width` columns; returns pivots, and the combinations that lead there."""
+        return independent(rows, width, self.prime)
+
+    def reached(self) -> Integers:
+        """Return F, A F, ..., A^(n-1) F modulo the prime, transposed."""
+        blocks = [self.F]
+        while len(blocks) < self.n:
+            blocks.append([added(times(row, self.A, self.n), [0] * self.n, self.prime) for row in blocks[-1]])
+        return [row for block in blocks[: self.n] for row in block]
+
+    def hankel_bounded(self, count: int, samples: int) -> None:
+        """Charge for a trajectory, and for eliminating in a Hankel matrix of so many rows of it."""
+        n, m, p = self.sizes
+        length = count + samples - 1
+        checker.charge(length * ((n + m + p + 1) ** 2 * 100 + length * self.den.bit_length() ** 2 // 100))
+        width = n + samples * (m + p) + count
+        checker.charge(count * width * (200 + 2 * count), 100 * count * width)
+
+    def trajectory(self, state: list[int], faults: Integers) -> tuple[Integers, Integers, Integers]:
         """Return states, faults and outputs of the integer system modulo the prime, fault k times the k-th power of the denominator."""
         states, weighted, outputs = [state], Integers(), Integers()
         for k, fault in enumerate(faults):
             weighted.append([self.den**k * x for x in fault])
-            outputs.append(added(times(states[-1], self.C, self.p), times(weighted[-1], self.G, self.p), prime))
-            states.append(added(times(states[-1], self.A, self.n), times(weighted[-1], self.F, self.n), prime))
+            outputs.append(added(times(states[-1], self.C, self.p), times(weighted[-1], self.G, self.p), self.prime))
+            states.append(added(times(states[-1], self.A, self.n), times(weighted[-1], self.F, self.n), self.prime))
         return states, weighted, outputs
-
-    def words(self, samples: int, prime: int) -> str:
-        """Return a basis of the words modulo the prime, reduced: initial state, faults, sample and output of the leading one."""
-        n, m, p = self.n, self.m, self.p
-        self.bounded(samples)
-        rows = [self.response(unit(n, i), [0] * m, samples, prime) for i in range(n)]
-        for i in range(m):
-            from_rest = self.response([0] * n, unit(m, i), samples, prime)
-            rows += [[0] * (p * j) + from_rest[: p * (samples - j)] for j in range(samples)]
-        found = []
-        for pivot, u in independent(rows, samples * p, prime):
-            faults = [[u[n + i * samples + j] for i in range(m)] for j in range(samples)]
-            found.append(f"(({vector(u[:n])}, {table(faults)}), ({pivot // p}%N, {pivot % p}%N))")
-        return sequence(found)
 
     def demands(self, row: Integers, prime: int = 0) -> Integers:
         """Return the condition rows [X_(k+1), c_k] of a kernel row, times powers of the denominator; modulo a prime where there is one."""
@@ -98,11 +195,19 @@ class Listed:
             state, weight = _reduced(state, prime), weight * self.den
         return found[::-1]
 
-    def minor(self, point: int | None, prime: int) -> tuple[list[int], list[int], int]:
+    def conditions(self, kernel: Kernel, samples: int) -> Integers:
+        """Return the condition rows of kernel rows, of so many samples."""
+        width, terms = self.n + self.p, sum(len(row) for _, row in kernel)
+        checker.charge(200 * terms * (width + 1) ** 2 * (1 + samples * self.den.bit_length() // 60))
+        found = [demand for _, row in kernel for demand in self.demands(row)]
+        checker.charge(len(found) * (width + len(found)) * (100 + 2 * width), 100 * len(found) * (width + len(found)))
+        return found
+
+    def minor(self, point: int | None) -> tuple[list[int], list[int], int]:
         """Return rows, columns and value modulo the prime of a largest minor that is not zero, of the pencil at a point, times the
         denominator, as the theory has the pencil, [q - A, C; - F, G]; or of G, where the point is infinity, None.
         """
-        n, m, p = self.sizes
+        (n, m, p), prime = self.sizes, self.prime
         height, width = (m, p) if point is None else (n + m, n + p)
         checker.charge(height * width * (100 + 4 * min(height, width)), 100 * height * width)
         if point is None:
@@ -114,24 +219,25 @@ class Listed:
         rows = _pivots([[row[j] for row in table] for j in columns], height, prime)
         return rows, columns, determinant([[table[i][j] for j in columns] for i in rows], prime)
 
-    def pencil_minor(self, given: Json, prime: int) -> tuple[str, str]:
-        """Return the point of a witness, or none for infinity, and that minor there, as terms in the scope of integers."""
-        point = None if given == "infinity" else checker.index(given, "point", prime - 1)
-        rows, columns, value = self.minor(point, prime)
-        return "None" if point is None else f"(Some {whole(point)})", f"{naturals(rows)} {naturals(columns)} {whole(value)}"
+    def pencil_minor(self) -> tuple[str, str, str, str]:
+        """Return the point of a witness, or none for infinity, and that minor there, as terms: its rows, columns and value."""
+        given = self.witness["point"]
+        point = None if given == "infinity" else checker.index(given, "point", self.prime - 1)
+        rows, columns, value = self.minor(point)
+        return "None" if point is None else f"(Some {whole(point)})", naturals(rows), naturals(columns), whole(value)
 
-    def hints(self, rows: Sequence[tuple[int, Integers]], given: Json, prime: int) -> str:
+    def hints(self, rows: Kernel) -> str:
         """Return hints that prove kernel rows minimal where they are, as a term: a minor of the pencil at a point, that of the leading
         coefficients at the pivots, and as many columns as the rows have states, with their minor there, 0 where there are too few.
         """
-        width, terms = self.n + self.p, sum(len(row) for _, row in rows)
-        point, minor = self.pencil_minor(given, prime)
+        width, terms, prime = self.n + self.p, sum(len(row) for _, row in rows), self.prime
+        minor = " ".join(self.pencil_minor())
         checker.charge(terms * (width * (300 + 100 * (self.n + len(rows))) + self.n * (100 + 4 * min(self.n, terms))), 100 * terms * width)
         states = [demand[: self.n] for _, row in rows for demand in self.demands(row, prime)[:-1]]
         columns = _pivots(states, self.n, prime)
         of_states = determinant([[x[j] for j in columns] for x in states], prime) if len(columns) == len(states) else 0
         leading = determinant([[row[-1][pivot] % prime for pivot, _ in rows] for _, row in rows], prime)
-        return f"Hints {point} {minor} {whole(leading)} {naturals(columns)} {whole(of_states)}"
+        return f"Hints {minor} {whole(leading)} {naturals(columns)} {whole(of_states)}"
 
 
 def determinant(table: Integers, prime: int) -> int:
@@ -179,3 +285,19 @@ def times(x: list[int], M: Integers, width: int) -> list[int]:
 def added(u: Iterable[int], v: Iterable[int], prime: int) -> list[int]:
     """Return the sum modulo the prime."""
     return [(a + b) % prime for a, b in zip(u, v, strict=True)]
+
+
+def _integers(values: Json) -> list[int]:
+    return [checker.rational(value, "a number", integral=True)[0] for value in values]
+
+
+def _scaled(values: Json, factor: int) -> list[int]:
+    """Return RATIONALs times a factor that all denominators divide."""
+    checker.charge(len(values) * (200 + factor.bit_length() ** 2 // 500), len(values) * factor.bit_length() // 4)
+    return [top * factor // bottom for top, bottom in (checker.rational(x, "a number") for x in values)]
+
+
+def _cleared(rows: Json) -> tuple[Integers, int]:
+    """Return rows of RATIONALs as integers over their common denominator."""
+    den = checker.common_denominator(checker.rational(x, "a number")[1] for row in rows for x in row)
+    return [_scaled(row, den) for row in rows], den

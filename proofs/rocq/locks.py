@@ -42,7 +42,12 @@ LOCKS = "locks.json"
 COMMAND = "python -m faultspace.proofs.rocq.locks"
 MOST_LISTED = 4
 # The texts of readings, and what theorems say, in the language of claims: package, path, table.
-IN_THE_LANGUAGE = (("faultspace", ("examples", "ledger.toml"), "claim"), ("faultspace.proofs.brought", ("theorems.toml",), "theorem"))
+# What is said of verdicts in sentences stands with them.
+IN_THE_LANGUAGE = (
+    ("faultspace", ("examples", "ledger.toml"), "claim"),
+    ("faultspace.proofs.brought", ("theorems.toml",), "theorem"),
+    ("faultspace.proofs.verdict", ("cards.toml",), "card"),
+)
 
 
 @dataclass(frozen=True)

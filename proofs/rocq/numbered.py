@@ -2,20 +2,24 @@
 
     Numbers         the arithmetic of one field: how its numbers are written, and what Rocq's theorem is said of
     Numbered        a system over such a field: its term, its words, the conditions of its kernel rows
+    system_of       a system of a statement, once the checker has looked at the prime
+    terms_over      the terms of a statement over every field in which the numbers mean something
     numbers_of      the arithmetic of a field as the checker reads it
     independent     a basis of the rows of a matrix, reduced: pivots, and the combinations that lead there
     inverse_at      pivots at which rows are independent, and what makes the table there diagonal
-    Row, Rows       a vector over the field, and a list of them
 
-What is computed here is believed by nobody: Rocq sees whether it serves.
+The theorem about a system over GF(p) is said of every field in which p is zero, that about one over Q(a) of every root of the minimal
+polynomial in every field of characteristic 0: neither needs that p is a prime or that the polynomial is irreducible, which the checker
+sees. There are no primes and hints in the terms. The lower bounds are words and combinations over the field itself, computed here,
+whatever shows them in the certificate: the hints, the prime and the root are looked at by the checker alone. What is computed here is
+believed by nobody: Rocq sees whether it serves.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import Any
 
 from flint import fmpq_mat, fmpz, fmpz_mat, nmod_mat
@@ -23,19 +27,27 @@ from flint import fmpq_mat, fmpz, fmpz_mat, nmod_mat
 from ...base.errors import InvalidInput
 from ...exact.algebra.fields import NumberField, PrimeField
 from ...exact.algebra.matrices import Matrix, beside, row_echelon
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.systems import ResidualSystem
 from ..trust import checker
 from .listed import NotCovered
-from .terms import natural, sequence, whole
+from .terms import Definition, Kernel, Listing, Row, Rows, Terms, Written, call, index, sequence, whole
 
 Json = Any
-Row = list[Any]
-Rows = list[Row]
 ROOT = "(K : fieldType) (a : K)"
 FAITHFUL = "forall z, number K z = 0 -> z = Z0"
+# What the checks and types over Q are called here; that of a rank of a matrix is NAME_has_rank.
+CHECKS = {
+    "window_ranks": "has_window_ranks", "left_invertible": "is_left_invertible", "not_left_invertible": "is_not_left_invertible",
+    "inclusion": "is_included", "equality": "are_equal", "window_equality": "are_equal_on", "difference": "differ",
+    "solutions": "are_solutions", "limit": "are_solutions_beyond", "first_column": "first_column_alone",
+    "delay": "has_delay", "no_delay": "has_no_delay",
+}  # fmt: skip
+TYPES = {"kernel_row": "(nat * seq (seq V))", "sampled_word": "(seq V * seq (seq V) * (nat * nat))", "vector": "(seq V)"}
 
 
 @dataclass(frozen=True)
-class Numbers:
+class Numbers(Written):
     """The numbers of a field. `own`: the field as the checker reads it; `name`, `definition`: the arithmetic of the theory and
     the parameter that it has; `given`: what is said of the field K, and `proof` of an argument `ok`, with `{lemma}` in it."""
 
@@ -96,20 +108,10 @@ class Numbers:
             coordinates.pop()
         return sequence(f"({whole(int(c.p))}, {whole(int(c.q))})" for c in coordinates)
 
-    def vector(self, row: Iterable[Any]) -> str:
-        """Write a vector as a term."""
-        return sequence(map(self.number, row))
-
-    def table(self, rows: Iterable[Iterable[Any]]) -> str:
-        """Write a list of vectors as a term."""
-        return sequence(map(self.vector, rows))
-
-    def pivoted(self, rows: Iterable[tuple[int, Row]]) -> str:
-        """Write pivots with their vectors as a term."""
-        return sequence(f"({natural(pivot)}%N, {self.vector(row)})" for pivot, row in rows)
-
     def of(self, kind: str) -> str:
-        """Write a type in which V stands for the numbers."""
+        """Write a type in which V stands for the numbers, and that of a vector, a kernel row or a word is named as over Q."""
+        for name, meant in TYPES.items():
+            kind = kind.replace(name, meant)
         return kind.replace("V", f"(numeral ({self.name}))")
 
 
@@ -134,25 +136,139 @@ def numbers_of(own: checker.Field) -> Numbers:
     )  # fmt: skip
 
 
-class Numbered:
-    """A SYSTEM over GF(p) or Q(a) is listed with matrices transposed. `read`: as the checker reads it."""
+class Numbered(Listing):
+    """A SYSTEM over GF(p) or Q(a) is listed. `read`: as the checker reads it."""
 
-    def __init__(self, data: Json) -> None:
+    meaning, vector_of, matrix_of, signal_of = "system_of value", "vector_of value", "matrix_of value", "signal_of value {m} vs"
+
+    def __init__(self, data: Json, witness: Json) -> None:
         self.read = checker.SUBJECTS["system"](data)
         self.numbers = numbers_of(self.read.field)
-        self.sizes = self.n, self.m, self.p = self.read.n, self.read.m, self.read.p
+        self.kind = f"listing ({self.numbers.name})"
+        super().__init__((self.read.n, self.read.m, self.read.p), witness)
         parts = (self.read.A, self.n, self.n), (self.read.F, self.n, self.m), (self.read.C, self.p, self.n), (self.read.G, self.p, self.m)
         self.A, self.F, self.C, self.G = (transposed(self.numbers.lifted(*part)) for part in parts)
 
-    @cached_property
+    @property
     def term(self) -> str:
         """As a term of type listing."""
-        tables = (self.numbers.table(part.elements()) for part in (self.A, self.F, self.C, self.G))
-        return f"Listing (R := {self.numbers.name}) {' '.join(tables)}"
+        return f"Listing (R := {self.numbers.name}) {' '.join(self.table(part.elements()) for part in (self.A, self.F, self.C, self.G))}"
 
-    def named(self, name: str) -> str:
-        """Return the system in the theory that the list of that name means."""
-        return f"(system_of value {natural(self.n)} {natural(self.m)} {natural(self.p)} {name})"
+    def terms(self, check: str, numbers: Sequence[int | str], definitions: Sequence[Definition], statement: str) -> Terms:
+        """Return the terms of a statement: its check is given the numbers, and then what is defined."""
+        ours = CHECKS.get(check, f"{check}_has_rank")
+        asked = call(ours, *numbers, *(name for name, *_ in definitions))
+        return terms_over(self.numbers, definitions, asked, statement, f"{ours}_sound" if check in CHECKS else f"{check}_rank")
+
+    def number(self, number: Any) -> str:
+        """Write a number as a term."""
+        return self.numbers.number(number)
+
+    def unit(self, size: int, i: int) -> Row:
+        """Return a row of the identity, or zeros where i < 0."""
+        return self.numbers.unit(size, i)
+
+    def modulus(self) -> list[Definition]:
+        """Return nothing: lower bounds are over the field itself."""
+        return []
+
+    def kernel(self, rows: Json) -> Kernel:
+        """Return pivots and coefficients of kernel rows."""
+        return [(index(row["pivot"]), [self.numbers.integral(c, self.p) for c in row["coefficients"]]) for row in rows]
+
+    def rows(self, kernel: Kernel, window: int | None = None) -> list[Definition]:
+        """Return the kernel rows that count and, where they come with hints, other pivots and what makes the leading coefficients there
+        diagonal: then they need not be triangular by those that they have."""
+        inverse, kernel = "None", self.counted(kernel, window)
+        self.hinted(window)
+        if "point" in self.witness and "kernel" in self.witness:
+            found = inverse_at(self.numbers, [row[-1] if row else [] for _, row in kernel], self.p)
+            if found is not None:
+                kernel = [(pivot, row) for pivot, (_, row) in zip(found[0], kernel, strict=True)]
+                inverse = f"Some {self.table(found[1])}"
+        return [self.kernel_rows(kernel), ("Q", "option (seq vector)", inverse)]
+
+    def lower(self, mark: str, kernel: Kernel, window: int | None = None) -> Definition:
+        """Return what shows a lower bound: words, of one more sample than there are states or of a window."""
+        return f"ws{mark}", "seq sampled_word", self.words(self.n + 1 if window is None else window)
+
+    def of_all_windows(self) -> tuple[str, list[Definition]]:
+        """Return the check of window ranks, and what it is shown: exact kernel rows, in the place of those that a certificate has modulo
+        its prime alone, which the checker looks at."""
+        if "kernel" in self.witness:
+            kernel = self.kernel(self.witness["kernel"])
+        else:
+            pivots, rows = self.read.field.kernel_rows(self.witness["kernel_modulo"], self.p)
+            self.read.spanned_modulo(pivots, rows, self.witness)
+            self.bounded(self.n + 1)
+            found = kernel_representation(ResidualSystem(*map(transposed, (self.A, self.F, self.C, self.G))))
+            kernel = [(row.pivot, row.coefficients.elements()) for row in found.rows]
+        return "window_ranks", [*self.rows(kernel), self.lower("", kernel)]
+
+    def of_full_rank(self) -> tuple[str, list[Definition]]:
+        """Return the check of left-invertibility, and what it is shown; the checker looks at the point of a witness that has one."""
+        if "point" in self.witness:
+            checker.require(self.read.pencil_rank(self.witness) >= self.n + self.m, "the pencil has a smaller rank at that point")
+        return "left_invertible", [self.lower("", [])]
+
+    def hinted(self, window: int | None = None) -> None:
+        """Have the checker look at hints, where rows annihilate the system modulo its prime: where they do not, Rocq sees it, but of the
+        rows that are not counted."""
+        w, field = self.witness, self.read.field
+        checker.expect("point" in w or "mix" not in w, "mix goes with a point")
+        if "point" in w and "kernel" in w:
+            pivots, rows = field.kernel_rows(w["kernel"], self.p)
+            residues = [field.residues(row) for row in rows]
+            _, left = self.read.conditions(residues)
+            if not left:
+                self.read.minimal(pivots, residues, w)
+            self.read.annihilated_by([row for row in rows if window is not None and len(row) > window])
+
+    def scaled(self, rows: Json, width: int) -> tuple[list[Definition], Rows]:
+        """Return rows of numbers."""
+        return [], self.numbers.vectors(rows, width)
+
+    def signal(self, state: Json, faults: Json) -> tuple[list[Definition], Row, Rows]:
+        """Return a state and faults."""
+        return [], *self.word(state, faults)
+
+    def word(self, state: Json, faults: Json) -> tuple[Row, Rows]:
+        """Return a state and faults."""
+        (x,), vs = self.numbers.vectors([state], self.n), self.numbers.vectors(faults, self.m)
+        return x, vs
+
+    def silent(self) -> tuple[Rows, Rows]:
+        """Return states and faults of a witness that no output shows, from the last on."""
+        return self.numbers.vectors(self.witness["state"][::-1], self.n), self.numbers.vectors(self.witness["fault"][::-1], self.m)
+
+    def multiple(self, rows: Json, width: int) -> Rows:
+        """Return rows as they are."""
+        return self.numbers.vectors(rows, width)
+
+    def inverses(self, rows: Json, delay: int) -> Definition:
+        """Return the rows of a left inverse, by samples."""
+        found = self.numbers.vectors(rows, self.p * (delay + 1))
+        samples = ([row[k * self.p : (k + 1) * self.p] for k in range(delay + 1)] for row in found)
+        return "rows", "seq (seq vector)", sequence(map(self.table, samples))
+
+    def nulls(self, rows: Json, before: int, samples: int, wide: int) -> list[tuple[int, Row]]:
+        """Return what annihilates a matrix with `before` columns and then some for each sample."""
+        return [(index(row["pivot"]), self.numbers.integral(row["row"], before + samples * wide)) for row in rows]
+
+    def independent(self, rows: Rows, width: int) -> list[tuple[int, Row]]:
+        """Reduce rows in their first `width` columns; returns pivots, and the combinations that lead there."""
+        return independent(self.numbers, rows, width)
+
+    def reached(self) -> Rows:
+        """Return F, A F, ..., A^(n-1) F, transposed."""
+        rows, block = Rows(), self.F
+        for _ in range(self.n):
+            rows, block = rows + block.elements(), block @ self.A
+        return rows
+
+    def hankel_bounded(self, count: int, samples: int) -> None:
+        """Charge for a trajectory, and for eliminating in a Hankel matrix of so many rows of it."""
+        checker.charge(count * (self.n + samples * (self.m + self.p) + count) * 2000)
 
     def bounded(self, samples: int) -> None:
         """Charges for simulating all states and faults on so many samples, and for eliminating in the windows that they make."""
@@ -161,43 +277,16 @@ class Numbered:
         work = height * (width + height) * (1000 + 20 * min(height, width)) * d**3
         checker.charge(work, 200 * height * (width + height) * d * d)
 
-    def trajectory(self, state: Row, faults: Sequence[Row]) -> tuple[Rows, Rows]:
-        """Return states and outputs."""
+    def trajectory(self, state: Row, faults: Sequence[Row]) -> tuple[Rows, Rows, Rows]:
+        """Return states, faults and outputs."""
         numbers, states, outputs = self.numbers, [state], Rows()
         for fault in faults:
             x, v = numbers.joined([states[-1]], self.n), numbers.joined([fault], self.m)
             outputs.append((x @ self.C + v @ self.G).elements()[0] if self.p else [])
             states.append((x @ self.A + v @ self.F).elements()[0] if self.n else [])
-        return states, outputs
+        return states, [*faults], outputs
 
-    def response(self, state: Row, fault: Row, samples: int) -> Row:
-        """Return the outputs, one after the other, of a state and a fault at time 0."""
-        rest = [self.numbers.field.element(0)] * self.m
-        _, outputs = self.trajectory(state, [fault, *[rest] * samples][:samples])
-        return [x for output in outputs for x in output]
-
-    def free(self, samples: int) -> Rows:
-        """Return the outputs of the unit states."""
-        rest = [self.numbers.field.element(0)] * self.m
-        return [self.response(self.numbers.unit(self.n, i), rest, samples) for i in range(self.n)]
-
-    def forced(self, samples: int) -> Rows:
-        """Return the outputs of the unit faults from rest, at one time after the other."""
-        zero = self.numbers.field.element(0)
-        first = [self.response([zero] * self.n, self.numbers.unit(self.m, i), samples) for i in range(self.m)]
-        return [[zero] * (self.p * k) + row[: self.p * (samples - k)] for k in range(samples) for row in first]
-
-    def words(self, samples: int) -> str:
-        """Return a basis of the words, reduced: initial state, faults, sample and output of the leading one."""
-        self.bounded(samples)
-        found, n, m = [], self.n, self.m
-        for pivot, u in independent(self.numbers, self.free(samples) + self.forced(samples), self.p * samples):
-            faults = [u[n + k * m : n + k * m + m] for k in range(samples)]
-            word = f"({self.numbers.vector(u[:n])}, {self.numbers.table(faults)})"
-            found.append(f"({word}, ({pivot // self.p}%N, {pivot % self.p}%N))")
-        return sequence(found)
-
-    def conditions(self, row: Rows) -> Rows:
+    def demands(self, row: Rows) -> Rows:
         """Return the condition rows [X_(k+1), c_k] of a kernel row."""
         state, found = self.numbers.joined([[self.numbers.field.element(0)] * self.n], self.n), Rows()
         for c in reversed(row):
@@ -205,6 +294,26 @@ class Numbered:
             found.append([*(state.elements()[0] if self.n else []), *c])
             state = coefficient @ transposed(self.C) + state @ transposed(self.A)
         return found[::-1]
+
+    def conditions(self, kernel: Kernel, samples: int) -> Rows:
+        """Return the condition rows of kernel rows."""
+        checker.charge(sum(len(row) for _, row in kernel) * (self.n + self.p + 1) ** 2 * 2000 * self.numbers.field.degree**2)
+        return [demand for _, row in kernel for demand in self.demands(row)]
+
+
+def system_of(data: Json, w: Json) -> Numbered:
+    """Return a system of the statement. Raises what the checker says of the prime, its root, and of why the polynomial is irreducible."""
+    system = Numbered(data, w)
+    system.read.field.irreducible(w)
+    if "prime" in w or "root" in w or system.read.field.prime:
+        system.read.field.reduce(w)
+    return system
+
+
+def terms_over(numbers: Numbers, definitions: Sequence[Definition], check: str, statement: str, lemma: str) -> Terms:
+    """Return the terms of a statement over every field that the numbers mean something in."""
+    named = tuple((name, numbers.of(kind), term) for name, kind, term in definitions)
+    return Terms((numbers.definition, *named), check, f"{numbers.given} {statement}", numbers.proof.format(lemma=lemma))
 
 
 def transposed(matrix: Matrix) -> Matrix:

@@ -18,8 +18,8 @@ from ...exact.limits.moesp import PopulationLimits, limit
 from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem, System, residual_of
-from . import limit_certificates as limits
 from . import structure_certificates as structure
+from .limit_certificates import Certified
 from .structure_certificates import Certificate, Unprovable
 
 
@@ -39,15 +39,15 @@ def _left_invertible(system: ResidualSystem, kind: str) -> Certificate:
 
 
 def _moesp_limit(found: PopulationLimits, instruments: str) -> Certificate:
-    makers = {"past-inputs": limits.past_input_limit, "past-inputs-and-outputs": limits.past_input_and_output_limit}
-    make: Callable[[PopulationLimits], Certificate] = _choose(makers, "instruments", instruments)
-    return make(found)
+    makers = {"past-inputs": Certified.past_input_limit, "past-inputs-and-outputs": Certified.past_input_and_output_limit}
+    make: Callable[[Certified], Certificate] = _choose(makers, "instruments", instruments)
+    return make(Certified(found))
 
 
 def _input_limit(found: PopulationLimits, regression: str) -> Certificate:
-    makers = {"true-AC": limits.output_error_inputs, "moesp": limits.moesp_inputs}
-    make: Callable[[PopulationLimits], Certificate] = _choose(makers, "regression", regression)
-    return make(found)
+    makers = {"true-AC": Certified.output_error_inputs, "moesp": Certified.moesp_inputs}
+    make: Callable[[Certified], Certificate] = _choose(makers, "regression", regression)
+    return make(Certified(found))
 
 
 def _matrix_rank(system: ResidualSystem, matrix: str, window: int | None = None) -> Certificate:
@@ -139,7 +139,7 @@ def certify(subject: System | Experiment | Mapping[str, Any], kind: str, **optio
     InvalidInput
         For an unknown kind (the message names the kinds), options that do not go with it and a subject of the wrong type.
     Unprovable
-        Where the statement is not true.
+        Where the statement is not true, or has no witness: over a small prime field, or where an input excites too few samples.
 
     Examples
     --------

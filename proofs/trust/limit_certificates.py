@@ -1,10 +1,10 @@
 """Certificates of population limits, kinds "moesp-limit" and "input-limit", as FORMAT.md has them.
 
-    past_input_limit, past_input_and_output_limit    the ranks of L, O_s and [O_s L], by PI-MOESP's and PO-MOESP's instruments
-    output_error_inputs, moesp_inputs                B and D of the two regressions with the true A and C
-    certificates_of                                  all of these that there are
+    Certified          of an experiment's PopulationLimits the certificates, each a method: the ranks of L, O_s and [O_s L], by the
+                       instruments of PI-MOESP and of PO-MOESP, and B and D of the two regressions with the true A and C
+    certificates_of    all of these that there are
 
-Each takes the PopulationLimits of an experiment and returns a JSON-ready certificate, untrusted as all are. The covariances of the witness
+A certificate is JSON-ready, and untrusted as all are. The covariances of the witness
 are in the coordinates of FORMAT.md, xi = (x; s_1; ...; s_L), s_i a block of the filters' own states, which need not be those in which
 the limits were computed; `Chain` is that realisation.
 """
@@ -26,7 +26,7 @@ from ...exact.limits.lyapunov import solve, stein
 from ...exact.limits.moesp import PopulationLimits
 from ...exact.system.modular import LARGEST_PRIME, primes_below, reduce_matrix
 from ...exact.system.windows import observability_matrix
-from .structure_certificates import Certificate, Unprovable
+from .structure_certificates import Certificate, Unprovable, as_certificate
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,8 @@ class Certified:
         return self._ranks("past-inputs-and-outputs", covariance, inputs, outputs, self.limits.past_outputs.matrix)
 
     def output_error_inputs(self) -> Certificate:
-        """Return the certificate of B and D of output error. Raises Unprovable."""
+        """Return the certificate of B and D that minimise the stationary E|y - G(q)u|^2. Raises Unprovable when they are not unique, and
+        where n + 1 block rows of u have a singular covariance."""
         limits, chain = self.limits, self.chain
         if limits.true_AC is None:
             raise Unprovable("the minimiser is not unique")
@@ -169,30 +170,7 @@ class Certified:
         for name, profile in profiles.items():
             if name == "joint" or len(profile) < len(profiles["joint"]):  # else the rows of both serve
                 witness[name] = _left_null(forms[name], self.response)
-        return _certificate("moesp-limit", statement, witness)
-
-
-def past_input_limit(limits: PopulationLimits) -> Certificate:
-    """The certificate of the ranks of the limit of PI-MOESP."""
-    return Certified(limits).past_input_limit()
-
-
-def past_input_and_output_limit(limits: PopulationLimits) -> Certificate:
-    """The certificate of the ranks of the limit of PO-MOESP."""
-    return Certified(limits).past_input_and_output_limit()
-
-
-def output_error_inputs(limits: PopulationLimits) -> Certificate:
-    """Return B and D that minimise the stationary E|y - G(q)u|^2 with the true A and C.
-
-    Raises Unprovable when they are not unique, and where n + 1 block rows of u have a singular covariance.
-    """
-    return Certified(limits).output_error_inputs()
-
-
-def moesp_inputs(limits: PopulationLimits) -> Certificate:
-    """Return the certificate of B and D of MOESP's regression with the true A and C. Raises Unprovable when they are not unique."""
-    return Certified(limits).moesp_inputs()
+        return as_certificate("moesp-limit", statement, witness)
 
 
 def certificates_of(limits: PopulationLimits) -> list[Certificate]:
@@ -203,13 +181,9 @@ def certificates_of(limits: PopulationLimits) -> list[Certificate]:
 # -- parts -------------------------------------------------------------------------------------------------------------
 
 
-def _certificate(kind: str, statement: dict[str, Any], witness: dict[str, Any]) -> Certificate:
-    return {"format": "faultspace-certificate/1", "kind": kind, "statement": statement, "witness": witness}
-
-
 def _input_certificate(experiment: Experiment, regression: str, B: Matrix, D: Matrix, witness: dict[str, Any]) -> Certificate:
     statement = {"experiment": experiment.to_json(), "regression": regression, "B": B.to_json(), "D": D.to_json()}
-    return _certificate("input-limit", statement, witness)
+    return as_certificate("input-limit", statement, witness)
 
 
 def _chain(experiment: Experiment) -> Chain:

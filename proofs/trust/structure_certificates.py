@@ -98,12 +98,12 @@ def left_invertible(kernel: KernelRepresentation) -> Certificate:
     system = kernel.system
     statement = {"system": system.to_json()}
     if kernel.normal_rank == system.m:
-        return _certificate("left-invertible", statement, point_witness(kernel))
+        return as_certificate("left-invertible", statement, point_witness(kernel))
     null = right_null_polynomial(system)
     if null is None:
         raise ArithmeticError("normal rank below m without a right null vector")
     witness = {"state": null.state.to_json(), "fault": null.fault.to_json()}
-    return _certificate("not-left-invertible", statement, witness | irreducible(system.field))
+    return as_certificate("not-left-invertible", statement, witness | irreducible(system.field))
 
 
 def left_invertible_line(first: ResidualSystem, second: ResidualSystem) -> Certificate:
@@ -116,7 +116,7 @@ def left_invertible_line(first: ResidualSystem, second: ResidualSystem) -> Certi
         raise ValueError("got two systems that differ in A, C or the number of faults, expected a line of faults of one system")
     minors, multiples = _coprime_minors(first, second)
     statement = {"first": first.to_json(), "second": second.to_json()}
-    return _certificate("left-invertible-line", statement, _line_image(first, second, multiples) | {"minors": minors})
+    return as_certificate("left-invertible-line", statement, _line_image(first, second, multiples) | {"minors": minors})
 
 
 def inversion_delay(kernel: KernelRepresentation, *, known_state: bool) -> Certificate:
@@ -135,7 +135,7 @@ def inversion_delay(kernel: KernelRepresentation, *, known_state: bool) -> Certi
         if word is None:
             raise ArithmeticError("no ambiguous word below the delay found")
         witness["word"] = {"x0": _column(word.x0), "v": word.v.to_json()}
-    return _certificate("inversion-delay", statement, witness)
+    return as_certificate("inversion-delay", statement, witness)
 
 
 def behaviour_inclusion(inner: ResidualSystem, outer: KernelRepresentation) -> Certificate:
@@ -143,7 +143,7 @@ def behaviour_inclusion(inner: ResidualSystem, outer: KernelRepresentation) -> C
     if separation(inner, outer) is not None:
         raise Unprovable("the inner behaviour has a word that the outer one has not")
     statement = {"inner": inner.to_json(), "outer": outer.system.to_json()}
-    return _certificate("behaviour-inclusion", statement, kernel_witness(outer))
+    return as_certificate("behaviour-inclusion", statement, kernel_witness(outer))
 
 
 def behaviour_equality(first: KernelRepresentation, second: KernelRepresentation) -> Certificate:
@@ -151,7 +151,7 @@ def behaviour_equality(first: KernelRepresentation, second: KernelRepresentation
     if separation(first.system, second) is not None or separation(second.system, first) is not None:
         raise Unprovable("the behaviours differ")
     statement = {"first": first.system.to_json(), "second": second.system.to_json()}
-    return _certificate("behaviour-equality", statement, common_witness(second.system, first))
+    return as_certificate("behaviour-equality", statement, common_witness(second.system, first))
 
 
 def window_equality(first: KernelRepresentation, second: KernelRepresentation, window: int) -> Certificate:
@@ -161,7 +161,7 @@ def window_equality(first: KernelRepresentation, second: KernelRepresentation, w
         if found is not None and found.window <= window:
             raise Unprovable(f"the behaviours differ on {counted(found.window, 'sample')}")
     statement = {"first": first.system.to_json(), "second": second.system.to_json(), "window": window}
-    return _certificate("window-equality", statement, window_witness(second.system, first, window))
+    return as_certificate("window-equality", statement, window_witness(second.system, first, window))
 
 
 def behaviour_difference(first: ResidualSystem, second: KernelRepresentation) -> Certificate:
@@ -171,13 +171,13 @@ def behaviour_difference(first: ResidualSystem, second: KernelRepresentation) ->
         raise Unprovable("every word of the first system is one of the second")
     statement = {"first": first.to_json(), "second": second.system.to_json(), "window": found.window}
     witness = {"x0": _column(found.x0), "v": found.v.to_json(), "row": found.row.coefficients.to_json()}
-    return _certificate("behaviour-difference", statement, witness | irreducible(first.field))
+    return as_certificate("behaviour-difference", statement, witness | irreducible(first.field))
 
 
 def fault_space(kernel: KernelRepresentation, space: FaultSpace) -> Certificate:
     """Return the certificate of the solution space of problem (11) at the window of `space`, or of its limit."""
     statement = {"system": kernel.system.to_json(), "window": space.window, "basis": space.basis.to_json()}
-    return _certificate("fault-space", statement, kernel_witness(kernel, space.window))
+    return as_certificate("fault-space", statement, kernel_witness(kernel, space.window))
 
 
 def first_column_only(kernel: KernelRepresentation, window: int, column: Matrix) -> Certificate:
@@ -191,7 +191,7 @@ def first_column_only(kernel: KernelRepresentation, window: int, column: Matrix)
     if all(found.is_zero() for found in conditions):
         raise Unprovable("every block column is annihilated")
     statement = {"system": kernel.system.to_json(), "window": window, "column": _column(column)}
-    return _certificate("first-column-only", statement, kernel_witness(kernel, window))
+    return as_certificate("first-column-only", statement, kernel_witness(kernel, window))
 
 
 def matrix_rank(name: str, system: ResidualSystem, *, window: int | None = None) -> Certificate:
@@ -223,7 +223,7 @@ def schur_stable(system: ResidualSystem) -> Certificate:
     """
     if not is_stable(system.A):
         raise Unprovable("an eigenvalue of A lies on the unit circle or outside")
-    return _certificate("schur-stable", {"system": system.to_json()}, irreducible(system.field))
+    return as_certificate("schur-stable", {"system": system.to_json()}, irreducible(system.field))
 
 
 def finite_zeros(system: ResidualSystem) -> Certificate:
@@ -238,7 +238,7 @@ def finite_zeros(system: ResidualSystem) -> Certificate:
         "normal_rank": len(nonzero) - system.n,
         "invariant_zero_polynomial": written(monic(product), system.field),
     }
-    return _certificate("finite-zeros", statement, _diagonal_witness(form, system.field))
+    return as_certificate("finite-zeros", statement, _diagonal_witness(form, system.field))
 
 
 def infinite_zeros(system: ResidualSystem) -> Certificate:
@@ -247,13 +247,14 @@ def infinite_zeros(system: ResidualSystem) -> Certificate:
     powers = [next(k for k, c in enumerate(f) if c != 0) for f in form.diagonal if f]
     orders = sorted(power - 1 for power in powers if power > 0)
     statement = {"system": system.to_json(), "infinite_zero_orders": orders}
-    return _certificate("infinite-zeros", statement, _diagonal_witness(form, system.field))
+    return as_certificate("infinite-zeros", statement, _diagonal_witness(form, system.field))
 
 
 # -- parts -------------------------------------------------------------------------------------------------------------
 
 
-def _certificate(kind: str, statement: dict[str, Any], witness: dict[str, Any]) -> Certificate:
+def as_certificate(kind: str, statement: dict[str, Any], witness: dict[str, Any]) -> Certificate:
+    """Return a certificate of these parts."""
     return {"format": "faultspace-certificate/1", "kind": kind, "statement": statement, "witness": witness}
 
 
@@ -261,7 +262,7 @@ def _window_ranks(system: ResidualSystem, indices: Sequence[int], witness: dict[
     r = system.p - len(indices)
     ranks = [s * r + sum(min(s, mu) for mu in indices) for s in range(1, system.n + 4)]
     statement = {"system": system.to_json(), "normal_rank": r, "left_minimal_indices": list(indices), "window_ranks": ranks}
-    return _certificate("window-ranks", statement, witness)
+    return as_certificate("window-ranks", statement, witness)
 
 
 def _coprime_minors(first: ResidualSystem, second: ResidualSystem) -> tuple[list[dict[str, Any]], Matrix]:
@@ -328,7 +329,7 @@ def _rank_certificate(statement: dict[str, Any], system: ResidualSystem, built: 
         rows.append({"pivot": pivot, "row": _integral(entries, system.field)})
     statement["rank"] = len(independent)
     kernel_image = _rank_image(system, built, len(independent))
-    return _certificate("matrix-rank", statement, kernel_image | {"left_null": rows})
+    return as_certificate("matrix-rank", statement, kernel_image | {"left_null": rows})
 
 
 def _rank_image(system: ResidualSystem, built: Matrix, size: int) -> dict[str, Any]:

@@ -4,6 +4,7 @@
     Reading     one precise statement; `repair` marks those that are ours, no way to read the words; `check` names the function in claims/,
                 or the text in the language of claims (IN_LANGUAGE)
     load        the claims of the ledger, in its order
+    sentences   what the cards of the claims say
     expected_without   for each ablation of `hypotheses`, the verdict expected when one of its hypotheses is dropped
 
 The verdict itself is never in the ledger: it is computed by each run and compared with the expected one.
@@ -20,7 +21,7 @@ from typing import Any
 
 from ...base.sheets import Shown
 
-FILE = "ledger.toml"
+FILE, CARDS = "ledger.toml", "cards.toml"
 IN_LANGUAGE = "language"
 OURS = "ours"  # with it the reference of a claim begins that neither the paper nor its review has
 
@@ -122,6 +123,13 @@ class Claim(Shown):
         """This says who states it so: the review, whose words are all that was at hand of the paper, or we."""
         return "as we state it" if self.reference.startswith(OURS) else "as the review states it"
 
+    @property
+    def group(self) -> str:
+        """This says whose claim it is: of the paper, as its review states it, of the review, or ours."""
+        if self.reference.startswith(OURS):
+            return "ours"
+        return "review" if self.id.startswith(("settle-", "objection-")) else "paper"
+
     def sheet(self) -> Iterator[tuple[str, str]]:
         """Yield the statement, whose words these are, and the readings, as (name, value) pairs."""
         yield self.whose, self.statement
@@ -142,6 +150,13 @@ def load() -> tuple[Claim, ...]:
 def expected_without() -> dict[str, dict[str, str]]:
     """A dict {ablation: {hypothesis: verdict on the claim without it}}; the verdict is REFUTED where the hypothesis is needed."""
     return {name: {str(key): str(value) for key, value in entry.items()} for name, entry in _contents()["without"].items()}
+
+
+@lru_cache(maxsize=1)
+def sentences() -> Mapping[str, Any]:
+    """Return what the card of each claim says in sentences: `verdict`, `instead`, and `wrong` of some readings."""
+    found: Mapping[str, Any] = tomllib.loads(resources.files(__package__).joinpath(CARDS).read_text("utf-8"))["card"]
+    return found
 
 
 def _contents() -> dict[str, Any]:

@@ -1,8 +1,8 @@
-"""The picture of the claims: a line a claim with its verdict, and a square a reading, first those of its words as stated, then ours.
+"""The picture of the claims: a line a claim with its verdict in a sentence, in three groups.
 
-Line     a claim's name and verdict, and the verdicts on its readings
+Line     a claim's name, whose it is, its verdict, and the sentence
 draw     the lines into axes of matplotlib
-COLOURS  verdict -> the colour of its squares
+COLOURS  verdict -> its colour
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
 
+TITLE = "What is true of the claims of one paper"
+GROUPS = {"paper": "Claims of the paper, as its review states them", "review": "Claims of the review", "ours": "Claims of ours"}
 COLOURS = {
     "PROVED": "#1b7837",
     "IDENTITY": "#5aae61",
@@ -20,19 +22,25 @@ COLOURS = {
     "AMENDED": "#9970ab",
     "ERROR": "#d7191c",
 }
-ON_DARK = ("PROVED", "AMENDED", "ERROR")
-IN_LEGEND = ("PROVED", "IDENTITY", "CERTIFIED", "REFUTED")
-LEFT, GAP = 8.2, 0.6  # where the first square stands, and the space between the two groups, in squares
+MEANINGS = {
+    "PROVED": "proved, in the reading that the sentence names",
+    "IDENTITY": "proved at stated dimensions",
+    "CERTIFIED": "no counterexample found",
+    "REFUTED": "false",
+    "AMENDED": "false as stated, and repaired",
+    "ERROR": "not decided",
+}
+NAMES, SENTENCES = 0.35, 5.2  # where these begin, in heights of a line
 
 
 @dataclass(frozen=True)
 class Line:
-    """A claim's name and verdict, the verdicts on the readings of its words, and those on readings of ours."""
+    """A claim's name, whose it is (a key of GROUPS), the verdict on it, and that in a sentence."""
 
     name: str
+    group: str
     verdict: str
-    stated: tuple[str, ...]
-    ours: tuple[str, ...]
+    sentence: str
 
 
 def draw(lines: Sequence[Line], ax: Any = None) -> Any:
@@ -40,39 +48,34 @@ def draw(lines: Sequence[Line], ax: Any = None) -> Any:
 
     Raises ImportError where there is no matplotlib.
     """
-    axes = _axes(len(lines)) if ax is None else ax
-    stated, ours = max((len(line.stated) for line in lines), default=0), max((len(line.ours) for line in lines), default=0)
-    right = LEFT + stated + GAP
-    for row, line in enumerate(lines):
-        axes.text(0.1, row, line.name, va="center", fontsize=9)
-        axes.text(4.9, row, line.verdict, va="center", fontsize=8, color="#333333")
-        for start, group in ((LEFT, line.stated), (right, line.ours)):
-            for column, verdict in enumerate(group):
-                _square(axes, start + column, row, verdict)
-    for place, heading in ((LEFT, "readings as stated"), (right, "readings of ours"), (0.1, "claim"), (4.9, "verdict")):
-        axes.text(place, -1.0, heading, fontsize=9, weight="bold")
-    patch = import_module("matplotlib.patches").Patch
-    handles = [patch(facecolor=COLOURS[one], label=f"{one[0]}  {one}") for one in IN_LEGEND]
-    axes.legend(handles=handles, loc="lower center", ncol=4, frameon=False, fontsize=8.5, bbox_to_anchor=(0.5, 0.0))
-    axes.set(xlim=(0, right + ours + 0.2), ylim=(len(lines) + 0.8, -1.7))
+    groups = {group: [line for line in lines if line.group == group] for group in GROUPS}
+    groups = {group: of_group for group, of_group in groups.items() if of_group}
+    height = len(lines) + 1.3 * len(groups)
+    axes = _axes(height) if ax is None else ax
+    axes.text(0, -1.2, TITLE, fontsize=12, weight="bold")
+    row = 0.0
+    for group, of_group in groups.items():
+        axes.text(0, row, GROUPS[group], va="center", fontsize=9, weight="bold")
+        for line in of_group:
+            row += 1
+            axes.plot(0.1, row, marker="s", markersize=7, color=COLOURS[line.verdict], clip_on=False)
+            axes.text(NAMES, row, line.name, va="center", fontsize=8.5)
+            axes.text(SENTENCES, row, line.sentence, va="center", fontsize=8)
+        row += 1.3
+    marker = import_module("matplotlib.lines").Line2D
+    there = [verdict for verdict in COLOURS if any(line.verdict == verdict for line in lines)]
+    handles = [marker([], [], marker="s", linestyle="", color=COLOURS[one], label=MEANINGS[one]) for one in there]
+    if handles:
+        axes.legend(handles=handles, loc="lower left", ncol=len(handles), frameon=False, fontsize=8.5, bbox_to_anchor=(0.0, 0.0))
+    axes.set(xlim=(0, 33), ylim=(height + 1.0, -2.0))
     axes.axis("off")
     return axes
 
 
-def _axes(count: int) -> Any:
+def _axes(height: float) -> Any:
     """Return the axes of a new figure of pyplot, which they fill."""
     try:
         pyplot: Any = import_module("matplotlib.pyplot")
     except ImportError:
         raise ImportError("plots need matplotlib: pip install 'faultspace[plots]'") from None
-    return pyplot.figure(figsize=(9, 0.27 * count + 1.1)).add_axes((0.0, 0.0, 1.0, 1.0))
-
-
-def _square(axes: Any, left: float, row: int, verdict: str) -> None:
-    """Draw one reading, with the first letter of its verdict."""
-    box = import_module("matplotlib.patches").FancyBboxPatch
-    shape = box((left + 0.08, row - 0.36), 0.84, 0.72, boxstyle="round,pad=0,rounding_size=0.12")
-    shape.set(facecolor=COLOURS[verdict], edgecolor="none")
-    axes.add_patch(shape)
-    colour = "white" if verdict in ON_DARK else "black"
-    axes.text(left + 0.5, row, verdict[0], ha="center", va="center", fontsize=8, color=colour)
+    return pyplot.figure(figsize=(10.5, 0.25 * height + 0.9)).add_axes((0.01, 0.0, 0.98, 1.0))

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from ...base.writing import write_text
 from ..trust.structure_certificates import Certificate, sha256
+from .cards import with_cards
 from .origin import origin
 from .verdicts import Report
 
@@ -27,7 +28,7 @@ def write_run(report: Report, folder: Path, more: Sequence[Certificate] = ()) ->
     certificates = [*report.certificates(), *more]
     for certificate in certificates:
         write_document(folder / f"{certificate['kind']}-{sha256(certificate)[:SHORT]}.json", certificate)
-    write_document(folder / VERDICTS, report.to_json())
+    write_document(folder / VERDICTS, with_cards(report))
     write_document(folder / ORIGIN, origin(report).to_json())
     return len(certificates)
 

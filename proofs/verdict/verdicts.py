@@ -21,7 +21,7 @@ from typing import Any
 from ...base.sheets import Shown
 from ..evidence.attacks import Attacked
 from ..trust.structure_certificates import Certificate, sha256
-from .ledger import Claim, Reading
+from .ledger import Claim, Reading, sentences
 from .picture import Line, draw
 
 
@@ -351,15 +351,13 @@ class Report(Shown):
         return frozenset().union(*readings, *(row.all_decided for row in self.hypotheses))
 
     def plot(self, ax: Any = None) -> Any:
-        """Draw a line a claim and a square a reading into the matplotlib axes `ax`, new ones where None are given, and return them.
+        """Draw a line a claim, with its verdict in a sentence, into the matplotlib axes `ax` (new ones for None), and return them.
 
         Raises ImportError where there is no matplotlib.
         """
-        lines = []
-        for one in self.claims:
-            stated, ours = (tuple(str(r.outcome.verdict) for r in one.readings if r.reading.repair == repair) for repair in (False, True))
-            lines.append(Line(one.claim.id, str(one.verdict), stated, ours))
-        return draw(lines, ax)
+        said = {name: words["verdict"] for name, words in sentences().items()}
+        found = [(one.claim, one.verdict, said.get(one.claim.id, "") if one.as_expected else one.title) for one in self.claims]
+        return draw([Line(claim.id, claim.group, str(verdict), words) for claim, verdict, words in found], ax)
 
     def to_json(self) -> dict[str, Any]:
         """Return the object that `verify --json` prints."""

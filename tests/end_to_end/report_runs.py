@@ -1,6 +1,6 @@
 """A small run that pages are made of: one claim decided for real, others with real certificates and verdicts made up for the test.
 
-small_run     writes its folder: example-v as `verify` decides it, a claim on pairs, a claim with a theorem, an answer on the literature
+small_run     writes its folder: example-v as `verify` decides it, a claim on pairs, a claim with a theorem
 SMALL         as little beside it as there can be
 spoil         changes the verdicts of such a folder
 """
@@ -20,7 +20,7 @@ from faultspace.proofs.verdict.ledger import load
 from faultspace.proofs.verdict.run_folder import write_document, write_run
 from faultspace.review.gathering import Sizes
 
-SMALL = Sizes(runs=2, study=4, plans=("published", "corrected"), lengths=(100, 300), seeds=1, records=2, statements=1)
+SMALL = Sizes(runs=2, study=4, plans=("published", "corrected"), lengths=(100, 300), seeds=1, statements=1)
 PAIR, PROVED = "theorem-1", "zero-feedthrough"
 
 
@@ -49,17 +49,6 @@ def small_run(folder: Path) -> Path:
         ]
 
     spoil(folder, add)
-    answers = [
-        {"id": "inverse-within-n", "field": "Q", "verdict": "PROVED", "expected": "NOT REFUTED", "smallest": None, "tried": None},
-        {
-            "id": "inverse-bound-without-1",
-            "field": "Q",
-            "verdict": "REFUTED",
-            "expected": "REFUTED",
-            "smallest": {"system": {"A": [["-1"]]}},
-        },
-    ]
-    write_document(folder / "literature.json", {"claims": answers})
     return folder
 
 
@@ -94,6 +83,10 @@ def _claim(name: str, readings: dict[str, tuple[str, Any, dict[str, str]]]) -> d
         "expected": "AMENDED",
         "as_expected": True,
         "rests_on": [],
+        "card": {
+            **{"id": name, "group": stated.group, "place": stated.reference, "said": stated.statement, "level": "AMENDED"},
+            **{"verdict": f"A sentence on {name}.", "wrong": [], "instead": "", "why": ["made up for a test"]},
+        },
         "readings": [
             {
                 "reading": one,

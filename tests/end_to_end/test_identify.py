@@ -129,9 +129,27 @@ def test_the_packaged_record_gives_the_fault_that_made_it(as_printed: tuple[Run,
     assert (folder / made.FILE_NAME).read_text("utf-8") == made.csv_text(record)
 
 
-def test_people_read_a_summary_and_find_the_files(as_printed: tuple[Run, Path, Identification]) -> None:
+def test_the_first_screen_answers_what_people_ask(as_printed: tuple[Run, Path, Identification]) -> None:
     run, out = as_printed[0], as_printed[1] / "result"
-    assert "order **3**, chosen from the data: the only one left open" in run.out and "n_v: **1**" in run.out and run.err == ""
+    lines = run.out.splitlines()
+    assert len(lines) <= 15 and run.err == ""
+    said = {line.partition(":")[0]: line.partition(":")[2].strip() for line in lines[1:]}
+    assert list(said) == ["Model", "Faults", "Since", "Where", "Size", "Sure", "Doubt", "Next", "Files"]
+    assert said["Model"].startswith("order 3, the only one that the data leave open; stable")
+    assert said["Faults"] == (
+        "1. 2 equations between inputs and outputs hold up to noise, a third does not: 3 outputs - 2 equations = 1 fault"
+    )
+    assert said["Where"].startswith("neither: ") and "the fault signal is determined" in said["Sure"]
+    assert f"beside {len(list(out.iterdir())) - 2} more files" in said["Files"]
+
+
+def test_people_read_a_summary_and_find_the_files(
+    as_printed: tuple[Run, Path, Identification], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(command, "identify", lambda *_, **__: as_printed[2])
+    monkeypatch.setattr("faultspace.numeric.plant.report.result_pictures.pictures", lambda *_: [])
+    run, out = identified(as_printed[1] / made.FILE_NAME, tmp_path / "out", "-v"), tmp_path / "out"
+    assert "order **3**, chosen from the data: the only one left open" in run.out and "n_v: **1**" in run.out
     for part in (
         "poles, +- standard error: ",
         "static gains: ",

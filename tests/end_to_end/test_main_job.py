@@ -12,8 +12,10 @@ from typing import Any
 import pytest
 
 import faultspace.proofs
+from faultspace.cli.claim_cards import card_lines
 from faultspace.proofs.trust.structure_certificates import sha256
-from faultspace.proofs.verdict.ledger import load
+from faultspace.proofs.verdict.cards import Card, Wrong
+from faultspace.proofs.verdict.ledger import load, sentences
 from tests.oracle import truth
 
 from .commands import command
@@ -38,7 +40,24 @@ def test_verify_quick_is_as_expected_and_makes_the_certificates_of_the_tree(tmp_
     kept = {path.name: path.read_text("utf-8") for path in HEADLINES.glob("*-*.json")}
     assert all(json.loads(made[name]) == json.loads(text) for name, text in kept.items())
     accepted_by_a_lone_checker([*map(str, sorted(tmp_path.glob("*-*.json")))], tmp_path)
+    every_card_fits_and_says_its_numbers(report)
     refutations_are_smallest_and_true(report, [json.loads(text) for text in made.values()])
+
+
+def every_card_fits_and_says_its_numbers(report: dict[str, Any]) -> None:
+    """See that no card is longer than 24 lines of 100 columns, and that the numbers of some are those that can be found by hand."""
+    cards = {claim["id"]: claim["card"] for claim in report["claims"]}
+    for name, card in cards.items():
+        shown = Card(**card | {"wrong": [Wrong(**one) for one in card["wrong"]]})
+        lines = list(card_lines(shown, "readings that hold: 19 of 19"))
+        assert len(lines) <= 24 and max(map(len, lines)) <= 100, name
+        assert {one["reading"] for one in card["wrong"]} == set(sentences()[name].get("wrong", {})), name
+    said = {name: " ".join(one["sentence"] for one in card["wrong"]) for name, card in cards.items()}
+    # x(k+1) = u(k+1), so y(k) = u(k); x(k+1) = (1/2) x(k) + u(k) + u(k+1), so that B = 1 + 1/2, D = 1; x(1) = 1/2 - 1/2 = 0
+    assert "D = 1 where 0 is true" in said["assumption-2"] and "B and D are 3/2 and 1 in the place of 1 and 0" in said["proposition-1"]
+    assert "x(0) = -1 and v(0) = 1" in said["trajectory-recovered"] and "rank R5 = 7 and rank R6 = 8" in said["example-v"]
+    # r(0) = 0 takes x(0) = v(0) = 0 in both; then r(1) = (-v(1), 0) in the first, and (-v(1), v(1)) in the second
+    assert "the word (0, 0)', (-1, 0)'" in said["theorem-1"].lower()
 
 
 def refutations_are_smallest_and_true(report: dict[str, Any], certificates: list[dict[str, Any]]) -> None:

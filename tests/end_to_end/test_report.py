@@ -5,6 +5,7 @@ The page is made once; a browser is started once. Without playwright or a Chromi
 
 from __future__ import annotations
 
+import html
 import json
 import re
 import shutil
@@ -24,6 +25,7 @@ import faultspace as fs
 from faultspace.base.errors import InvalidInput
 from faultspace.base.progress import silent
 from faultspace.proofs.verdict.ledger import load
+from faultspace.proofs.verdict.review_points import review, source
 from faultspace.review import printing, reporting
 from faultspace.review.computed import controls
 from faultspace.review.computed.texts import sources, withdrawn
@@ -37,15 +39,14 @@ from tests.end_to_end.report_runs import PAIR, SMALL, small_run, spoil
 pytest.importorskip("jinja2")
 from faultspace.review.drawing import mathml
 from faultspace.review.drawing.axes import Axis
-from faultspace.review.drawing.graph import Node, layers
 from faultspace.review.page import render
 from faultspace.review.view.alarms import alarms
 from faultspace.review.view.claims import claims
 
 LARGEST = 5_000_000  # bytes of a page
 LIKE_OTHERS = (  # what axe would look at many times over, which the slow test has it do
-    ".choice:nth-of-type(n + 2), #counterexamples article:nth-of-type(n + 2), #counterexamples details:nth-of-type(n + 2), "
-    "#withdrawn li:nth-child(n + 4), #appendix details li:nth-child(n + 4), #audit details:nth-of-type(n + 3)"
+    "#claims article:nth-of-type(n + 3), #hypotheses details:nth-of-type(n + 2), "
+    "#withdrawn li:nth-child(n + 4), #appendix details li:nth-child(n + 4), #appendix tr:nth-child(n + 4)"
 )
 PHONE, SCREEN = {"width": 360, "height": 740}, {"width": 1280, "height": 900}
 
@@ -96,7 +97,11 @@ def test_nothing_is_fetched_nothing_is_said_and_every_link_resolves(browser: Any
     broken = "[...document.links].map(a => a.getAttribute('href')).filter(h => h[0] === '#' && !document.getElementById(h.slice(1)))"
     assert tab.evaluate(broken) == []
     others = tab.evaluate("[...document.links].map(a => a.getAttribute('href')).filter(h => h[0] !== '#')")
-    assert {one.partition(",")[0] for one in others} == {"https://arxiv.org/abs/2505.13294", "data:application/json;base64"}
+    assert {one.partition(",")[0] for one in others} == {
+        "https://arxiv.org/abs/2505.13294",
+        source()["address"],
+        "data:application/json;base64",
+    }
     assert tab.evaluate("new Set([...document.querySelectorAll('[id]')].map(e => e.id)).size === document.querySelectorAll('[id]').length")
     tab.context.close()
 
@@ -121,10 +126,6 @@ def test_the_keyboard_reaches_everything(browser: Any, page: Path) -> None:
     assert tab.evaluate("document.activeElement.className") == "skip"
     tab.keyboard.press("Enter")
     assert tab.evaluate("document.activeElement.id") == "content"
-    tab.focus("#system")
-    before = tab.inner_text(".choice.chosen h3")
-    tab.keyboard.press("ArrowDown")
-    assert tab.inner_text(".choice.chosen h3") != before and tab.locator(".choice.chosen").count() == 1
     tab.locator("#claims summary").first.focus()
     tab.keyboard.press("Enter")
     assert tab.evaluate("document.activeElement.parentElement.open")
@@ -138,7 +139,7 @@ def test_the_keyboard_reaches_everything(browser: Any, page: Path) -> None:
 @pytest.mark.programs
 def test_a_link_into_what_is_closed_opens_it(browser: Any, page: Path) -> None:
     tab = opened(browser, page, [])
-    place = tab.get_attribute("#certificates ~ details tr[id]", "id")
+    place = tab.get_attribute("#certificates ~ details li[id]", "id")
     assert not tab.is_visible(f"#{place}")
     tab.evaluate(f"location.hash = '{place}'")
     tab.wait_for_selector(f"#{place}", state="visible")
@@ -162,9 +163,7 @@ def test_on_paper_everything_is_open(browser: Any, page: Path, tmp_path: Path) -
     tab.emulate_media(media="print")
     tab.evaluate("dispatchEvent(new Event('beforeprint'))")
     assert tab.locator("details:not([open])").count() == 0
-    assert (
-        not tab.is_visible("nav.contents") and not tab.is_visible("#system") and tab.is_visible("#certificates ~ details tr[id] >> nth=0")
-    )
+    assert not tab.is_visible("nav.contents") and tab.is_visible("#certificates ~ details li[id] >> nth=0")
     tab.evaluate("dispatchEvent(new Event('afterprint'))")
     assert tab.locator("details:not([open])").count() > 0
     assert (tmp_path / "page.pdf").read_bytes().startswith(b"%PDF")
@@ -178,13 +177,6 @@ def test_on_paper_everything_is_open(browser: Any, page: Path, tmp_path: Path) -
 
 
 @pytest.mark.programs
-def test_without_its_script_the_page_shows_all_systems(browser: Any, page: Path) -> None:
-    tab = opened(browser, page, [], java_script_enabled=False)
-    assert tab.is_visible("#system-1") and tab.is_visible("#system-2")
-    tab.context.close()
-
-
-@pytest.mark.programs
 def test_what_is_not_as_expected_is_the_first_thing_seen(browser: Any, records: Records, tmp_path: Path) -> None:
     tab = opened(browser, written(render(changed(records, another_verdict)), tmp_path / "report.html"), [])
     assert tab.title().startswith("NOT as expected")
@@ -192,7 +184,6 @@ def test_what_is_not_as_expected_is_the_first_thing_seen(browser: Any, records: 
     assert first.get_attribute("role") == "alert"
     assert f"{PAIR}, n-plus-1-samples: the verdict is CERTIFIED, PROVED was expected" in first.inner_text()
     assert first.bounding_box()["y"] < 100 and tab.locator("h1").count() == 1 and "not as expected" in tab.inner_text("h1")
-    assert "This run does not support the sentence." in tab.inner_text("#sentences li:nth-child(4)")
     tab.context.close()
 
 
@@ -200,15 +191,17 @@ def test_the_page_is_small_and_complete(records: Records, page: Path) -> None:
     text = page.read_text("utf-8")
     assert len(text) < LARGEST
     parts = re.findall(r'<section id="(\w+)"', text)
-    first = "sentences claims graph hypotheses counterexamples example limits study audit literature bound"
-    assert parts == [*first.split(), *("trust", "controls", "withdrawn", "honest", "choice", "words", "appendix")]
-    assert text.index('class="facts"') < text.index('id="sentences"')
+    assert parts == ["claims", "review", "trust", "hypotheses", "measured", "withdrawn", "honest", "appendix"]
+    assert text.index('class="facts"') < text.index('id="claims"')
     assert render(records) == text, "equal records give equal pages"
     assert "faultspace verify --effort quick --claim example-v --out RUN &amp;&amp; faultspace report --run RUN" in text
     for one in records.run.origin["checkers"]:
         assert one["sha256"] in text
+    assert "whoever could write there could write them" in text[text.index('id="trust"') : text.index('id="controls"')]
     assert '<a class="word" href="#word-lag">' in text and '<dt id="word-lag">' in text
-    assert "The separating word" in text and "<math" in text and "4 systems" not in text[: text.index('id="study"')]
+    assert "<math" in text and "F = (1, a, a^2)" not in text and "<msup><mi>a</mi><mn>2</mn></msup>" in text
+    plain = html.unescape(re.sub(r"<[^>]*>", "", text))
+    assert "A sentence on theorem-1." in plain and all(point.says in plain for point in review())
 
 
 def test_nothing_of_a_record_becomes_markup(records: Records) -> None:
@@ -238,12 +231,6 @@ def another_checker(records: Records) -> Records:
     return replace(records, run=replace(records.run, origin={**records.run.origin, "checkers": [{**first, "sha256": "0" * 64}, *others]}))
 
 
-def literature_wrong(records: Records) -> Records:
-    assert records.run.literature is not None
-    answers = [{**one, "verdict": "REFUTED"} for one in records.run.literature["claims"]]
-    return replace(records, run=replace(records.run, literature={"claims": answers}))
-
-
 def claim_error(verdicts: dict[str, Any]) -> None:
     verdicts["claims"][0]["verdict"] = "ERROR"
 
@@ -269,7 +256,6 @@ ATTACKS: dict[str, tuple[Callable[[Records], Records], str]] = {
     "a certificate that is refused": (not_accepted, "the checker refused it: a rank is wrong"),
     "a spoiled one that is accepted": (spoiled_accepted, "the checker accepted 1 of"),
     "a run by another checker": (another_checker, "this page was made with another checker.py than the run"),
-    "the literature": (literature_wrong, "NOT REFUTED was expected"),
 }
 
 
@@ -301,23 +287,6 @@ def test_spoiled_certificates_are_false_and_refused(records: Records) -> None:
 def test_the_figures_are_those_of_exact_and_floats(records: Records) -> None:
     assert records.example["exact"] == [2, 4, 5, 6, 7, 8] == records.example["default_true"]
     assert [curve["right"] for curve in records.convergence["curves"]] == [False, True, False]
-    for system in records.systems["systems"]:
-        assert system["by_indices"] == system["structure"]["window_ranks"]
-    shown = records.counterexamples[PAIR][0]
-    assert shown["word"] is not None and len(shown["word"]["r"]) == shown["word"]["samples"]
-
-
-def test_the_ten_sentences_are_those_of_the_readme_and_rest_on_readings() -> None:
-    import tomllib
-
-    readme = (ROOT / "README.md").read_text("utf-8")
-    part = readme[readme.index("## What is true") : readme.index("Every line is a ")]
-    part = re.sub(r"\[([^\]]+)\]\(docs/glossary\.md#[^)]*\)", r"\1", part)  # the page stands alone
-    items = [" ".join(item.split()) for item in re.findall(r"^\d+\. (.*?)(?=^\d+\. |\Z)", part, re.DOTALL | re.MULTILINE)]
-    sentences = tomllib.loads((ROOT / "faultspace" / "review" / "sentences.toml").read_text("utf-8"))["sentence"]
-    assert [one["text"] for one in sentences] == items and len(items) == 10
-    readings = {f"{claim.id}.{one.id}" for claim in load() for one in claim.readings}
-    assert [name for one in sentences for name in one["rests"] if name not in readings] == []
 
 
 def test_what_was_withdrawn_is_read_from_the_changelog() -> None:
@@ -334,14 +303,7 @@ def test_numbers_become_mathml_and_what_is_none_stays_text() -> None:
     assert "<msup><mi>a</mi><mn>2</mn></msup>" in mathml.number("4 a^2 - a")
     assert mathml.number("1/2...<b>") == "<mtext>1/2...&lt;b&gt;</mtext>"
     assert "empty, 0 x 2" in mathml.matrix({"rows": 0, "columns": 2, "entries": []}, "F")
-
-
-def test_the_graph_stands_whatever_uses_what() -> None:
-    def node(name: str, *uses: str) -> Node:
-        return Node(name, uses, "stands", "proved", "")
-
-    assert layers([node("a"), node("b", "a"), node("c", "a", "b"), node("d", "nobody")]) == {"a": 0, "b": 1, "c": 2, "d": 0}
-    assert set(layers([node("a", "b"), node("b", "a")]).values()) <= {0, 1}
+    assert mathml.typeset([["1", "2"]]) == {"rows": 1, "columns": 2, "entries": [["1", "2"]]}
 
 
 def test_ticks_lie_on_the_axis() -> None:
@@ -409,10 +371,10 @@ def test_what_a_run_of_its_own_has_decided_is_kept_where_the_rest_is_broken_off(
         raise KeyboardInterrupt
 
     monkeypatch.setattr(reporting, "verify", lambda **options: fs.verify(["example-v"], jobs=1))
-    monkeypatch.setattr(reporting, "decide_claims", broken_off)
+    monkeypatch.setattr(reporting, "gather", broken_off)
     with pytest.raises(KeyboardInterrupt):
         made(None, tmp_path, "quick", 1, silent)
-    assert read_run(tmp_path / "run").literature is None
+    assert [one["id"] for one in read_run(tmp_path / "run").verdicts["claims"]] == ["example-v"]
     with pytest.raises(InvalidInput, match=r"its page is made by --run \S*run"):
         made(None, tmp_path, "quick", 1, silent)
 

@@ -62,7 +62,7 @@ def answered(tmp_path_factory: pytest.TempPathFactory) -> tuple[Run, Path]:
         csv.writer(stream).writerows([["u", *names], *np.hstack([u, y]).tolist()])
     quoted = ['"{}"'.format(name.replace('"', '""')) for name in names]
     options = [option for name in quoted for option in ("--outputs", name)]
-    run = call("identify", str(folder / "data.csv"), "--inputs", "u", *options, "--order", "1", "--out", str(folder / "out"))
+    run = call("identify", str(folder / "data.csv"), "--inputs", "u", *options, "--order", "1", "--out", str(folder / "out"), "-v")
     return run, folder / "out"
 
 

@@ -27,6 +27,7 @@ from faultspace.exact.system.systems import read_system
 from faultspace.proofs.evidence.attacks import Attacked
 from faultspace.proofs.evidence.specimens import specimens
 from faultspace.proofs.trust.structure_certificates import sha256, window_ranks
+from faultspace.proofs.verdict.cards import with_cards
 from faultspace.proofs.verdict.ledger import Claim, Reading
 from faultspace.proofs.verdict.verdicts import ClaimResult, Outcome, ReadingResult, Report, Row, Verdict
 from tests.end_to_end.commands import ROOT, call, command, example, validator
@@ -74,8 +75,9 @@ def pretended(monkeypatch: pytest.MonkeyPatch) -> Callable[[Verdict], list[dict[
             on_progress: Callable[[str, int, int], None],
             scheduler: str | None = None,
             resume: Path | None = None,
+            rocq: bool = False,
         ) -> Report:
-            calls.append({"claims": claims, "effort": effort, "jobs": jobs})
+            calls.append({"claims": claims, "effort": effort, "jobs": jobs, "rocq": rocq})
             on_progress("systems", 0, 12)
             on_progress("systems", 12, 12)
             on_progress("claim-a: as-printed", 0, 3)
@@ -112,8 +114,8 @@ def test_exit_0_if_every_verdict_is_the_expected_one(pretended: Pretend, verdict
     calls = pretended(verdict)
     run = call("verify", "--effort", "quick", "--jobs", "2", "--json")
     assert run.code == code
-    assert calls == [{"claims": None, "effort": "quick", "jobs": 2}]
-    assert run.json == report(None, verdict).to_json()
+    assert calls == [{"claims": None, "effort": "quick", "jobs": 2, "rocq": False}]
+    assert run.json == with_cards(report(None, verdict))
     assert run.err == ""
 
 
@@ -126,13 +128,13 @@ def test_an_unexpected_verdict_is_seen(pretended: Pretend) -> None:
             "! claim-b, with-zeros: REFUTED (expected CERTIFIED); evidence for with-zeros",
         ], "it is the first thing seen"
         assert lines[-1].startswith("NOT as expected: claim-b; ")
-    row = next(line for line in call("verify").out.splitlines()[2:] if line.startswith("!"))
-    assert row.split()[:3] == ["!", "claim-b", "REFUTED"]
+    rows = [line for line in call("verify").out.splitlines()[2:] if line.startswith("  claim-")]
+    assert rows[0] == "  claim-b: NOT as expected: with-zeros is REFUTED, CERTIFIED expected.", "it is the first of its group"
 
 
 def test_a_claim_is_told_in_full(pretended: Pretend) -> None:
     calls = pretended(Verdict.CERTIFIED)
-    run = call("verify", "--claim", "claim-a")
+    run = call("verify", "--claim", "claim-a", "-v")
     assert (run.code, calls[0]["claims"]) == (0, ["claim-a"])
     for text in (CLAIMS[0].statement, ONE.statement, TWO.statement, "left-invertible; s >= n", "evidence for with-zeros"):
         assert text in run.out
@@ -154,7 +156,7 @@ def test_an_unknown_claim_is_told_before_the_run(pretended: Pretend) -> None:
     calls = pretended(Verdict.CERTIFIED)
     run = call("verify", "--claim", "claim-c")
     assert (run.code, run.out, calls) == (2, "", [])
-    assert run.err == "faultspace: --claim: got 'claim-c', expected one of claim-a, claim-b\n"
+    assert run.err == "faultspace: --claim: got 'claim-c', expected one of claim-a, claim-b; try: faultspace verify --claim claim-b\n"
 
 
 def test_certificates_and_verdicts_are_written_whole(pretended: Pretend, tmp_path: Path) -> None:
@@ -204,12 +206,12 @@ def test_by_itself_it_prints_a_line_for_each_claim_and_few_others(pretended: Pre
     pretended(Verdict.CERTIFIED)
     out = call("verify").out
     lines = [" ".join(line.split()) for line in out.splitlines()]
-    assert lines[1:3] == ["claim-a AMENDED 1 refuted 1 certified", "claim-b CERTIFIED - 1 certified"]
-    assert "hypotheses: 2 dropped alone: 1 needed (a counterexample without it), 1 without which no counterexample was found; " in out
-    assert "1 pair: 0 needed only together." in out and "attacks: none is stored on these claims." in lines
-    assert "machine-checked: not asked" in lines and "PROVED:" not in out
-    assert "AMENDED: every reading of the claim as stated is refuted" in out
-    assert len(lines) == 2 + 7 and lines[-1].startswith("as expected: all 2 claims; 3 readings")
+    amended, certified = (f"claim-{name}: {verdict.meaning}." for name, verdict in (("a", Verdict.AMENDED), ("b", Verdict.CERTIFIED)))
+    assert lines[:3] == ["Claims of the paper, as its review states them", amended, certified]
+    assert "Hypotheses: 2 dropped alone: 1 needed (a counterexample without it), 1 without which no counterexample was found; " in out
+    assert "1 pair: 0 needed only together." in out and "Searches: none is stored on these claims." in lines
+    assert "Machine-checked: not asked" in lines
+    assert len(lines) == 3 + 5 and lines[-1].startswith("as expected: all 2 claims; 3 readings")
     assert "\x1b" not in out
 
 
@@ -220,8 +222,8 @@ def test_the_verdict_of_the_adversary_is_told_in_a_sentence(monkeypatch: pytest.
     attacked_claim = replace(claim, readings=(replace(first, attacks=attacked), replace(second, attacks=attacked[:1])))
     words = verdict_tables.attack_words(replace(made, claims=(attacked_claim, made.claims[1])))
     assert words == (
-        "3 looked at again: 2 confirm a counterexample (1 of these against a verdict other than REFUTED), 1 found none; "
-        "1 out of date or not found again."
+        "3 stored searches were repeated: 2 confirm a counterexample, 1 against a verdict other than REFUTED; 1 found nothing; "
+        "1 are out of date or were not found again."
     )
 
 
@@ -247,10 +249,12 @@ def test_a_terminal_of_any_width_shows_everything(
     assert code == (0 if "--claim" in options else 1)
     assert max(map(len, printed.splitlines())) <= width and "…" not in printed
     together = re.sub(r"[\s─]", "", printed)
-    wanted = ["claim-a", "AMENDED", "certificates accepted"]
+    wanted = ["claim-a", "certificates accepted"]
     if options != ("--claim", "claim-a"):
-        wanted += ["claim-b", "NOT as expected: claim-b", "claim-b: REFUTED (expected CERTIFIED)", "readings as stated"]
-    if options:
+        wanted += ["claim-b", "NOT as expected: claim-b", "claim-b: REFUTED (expected CERTIFIED)"]
+    else:
+        wanted += ["AMENDED", CLAIMS[0].statement, "readings that hold: 1 of 2"]
+    if options == ("-v",):
         wanted += [SHORT, "needed", "observable"]
         wanted += ["evidence for with-zeros", "left-invertible; s >= n"]
     assert [text for text in wanted if "".join(text.split()) not in together] == []

@@ -165,3 +165,30 @@ def test_limit_tells_of_the_arx_model_beside_pi_moesp() -> None:
     assert sound.to_json()["arx"]["misfit"] == str(sound.arx.misfit) and len(sound.to_json()["arx"]["bias"]) == 5
     told = dict(limit(noisy("following-fault")).sheet())
     assert "not the true one" in told["its plant"] and not limit(noisy("following-fault")).to_json()["arx"]["open_loop"]
+
+
+def told_of(system: dict[str, Any], u: list[Any], v: list[Any], w: list[Any], s: int) -> tuple[ARXLimit, str]:
+    found = limit({**system, "s": s, "past": s, "u_filter": u, "v_filter": v, "w_filter": w})
+    assert found.arx is not None
+    lines = [f"{name} {value}" for name, value in found.sheet()]
+    return found.arx, " ".join(lines[lines.index("an ARX model, which identify reduces to the order ") :])
+
+
+def test_what_is_said_of_the_plant_is_true_of_all_its_markov_parameters_and_of_faults_that_are_seen() -> None:
+    one = {"A": [["1/2"]], "B": [["1"]], "C": [["1"]], "D": [["0"]], "F": [["1"]], "G": [["0"]]}
+    white, noise = ([[["1", "0"]]], [[["0", "1"]]]), [[["1"]]]
+    for s in (2, 3, 4):  # under a white input the first s + 1 Markov parameters are right, and later ones are not
+        arx, words = told_of(one, *white, noise, s)
+        assert arx.misfit != 0 and "not the true one" in words and "both tend to 0" in words
+    assert "its plant the true one" in told_of(one | {"F": [["1/2"]], "G": [["1"]]}, *white, [[["0"]]], 3)[1]
+    two = {"A": [["1/2", "0"], ["0", "1/3"]], "B": [["1"], ["0"]], "C": [["1", "0"]], "D": [["0"]], "G": [["0"]]}
+    leading = [[["0"]], [["1"]]], [[["1"]], [["0"]]]  # v(k) = u(k+1)
+    arx, words = told_of(two | {"F": [["0"], ["1"]]}, *leading, noise, 3)  # the fault moves a state that no output shows
+    assert arx.open_loop and arx.misfit and "both tend to 0" in words
+    arx, words = told_of(two | {"F": [["1"], ["0"]]}, *leading, noise, 3)
+    assert not arx.open_loop and "more lags need not help" in words
+    ahead = {**one, "F": [["0"]], "G": [["1"]], "s": 2, "past": 2, "u_filter": leading[0], "v_filter": leading[1], "w_filter": noise}
+    errors = [error(read_experiment(ahead), lags) for lags in (2, 16)]  # y(k) has u(k+1) in it, and more lags do help
+    assert not arx_limit(read_experiment(ahead), 2).open_loop and errors[1] < 1e-4 < 1e-1 < errors[0]
+    words = told_of(one | {"C": [["1"], ["1"]], "D": [["0"], ["0"]], "G": [["0"], ["0"]]}, *white, [[["1"], ["1"]]], 2)[1]
+    assert "mixture of outputs has no noise" in words  # y1 = y2, and each has noise

@@ -214,9 +214,8 @@ def test_every_identity_is_expanded_again(dimensions: tuple[int, int, int]) -> N
     checked = verify_identities(stratification)
     windows = dimensions[0] + 3
     ranks = sum(stratum.window_rank(windows) for stratum in stratification.strata)
-    assert (checked.dimensions, checked.windows, checked.strata) == (dimensions, windows, len(stratification.strata))
     assert checked.independent == ranks
-    assert checked.relations == windows * dimensions[1] * checked.strata - ranks
+    assert checked.relations == windows * dimensions[1] * len(stratification.strata) - ranks
 
 
 def broken_stratifications() -> dict[str, Stratification]:
@@ -375,10 +374,8 @@ def test_drop_conditions_of_one_state_two_outputs_one_fault() -> None:
 @pytest.mark.parametrize("dimensions", ALL)
 def test_the_gap_is_the_normal_rank_from_n_on(dimensions: tuple[int, int, int]) -> None:
     claim = gap_claim(strata_of(*dimensions))
-    n = dimensions[0]
-    assert claim.gap_windows == (n, n + 1, n + 2)
-    assert claim.cases >= claim.strata == len(strata_of(*dimensions).strata)
-    assert claim.expanded >= claim.cases
+    assert claim.strata == len(strata_of(*dimensions).strata)
+    assert claim.expanded >= verify_identities(strata_of(*dimensions)).expanded + claim.strata  # a minor of the pencil on each, at least
 
 
 @pytest.mark.parametrize("dimensions", [(1, 1, 1), (2, 1, 1), (2, 2, 1), (2, 2, 0)])
@@ -388,14 +385,12 @@ def test_a_window_below_n_is_not_enough(dimensions: tuple[int, int, int]) -> Non
 
 @pytest.mark.parametrize("dimensions", ALL)
 def test_n_plus_1_samples_decide_inclusion(dimensions: tuple[int, int, int]) -> None:
-    n, p, m = dimensions
-    claim = inclusion_claim(strata_of(*dimensions))
-    assert claim.inner_faults == (m, m + 1)
-    assert claim.largest_degree <= n
-    if p > 0:
-        # Some relation has degree n, so that n samples would not be enough.
-        assert claim.largest_degree == n
-        assert claim.expanded > 0
+    n, p, _ = dimensions
+    stratification = strata_of(*dimensions)
+    claim = inclusion_claim(stratification)
+    # Some relation has degree n, so that n samples would not be enough.
+    assert max(max(stratum.left_minimal_indices, default=0) for stratum in stratification.strata) == (n if p > 0 else 0)
+    assert claim.expanded > verify_identities(stratification).expanded
 
 
 @pytest.mark.parametrize("dimensions", [d for d in ALL if d not in LARGER])
@@ -403,7 +398,7 @@ def test_rank_counts_zeros(dimensions: tuple[int, int, int]) -> None:
     n, p, m = dimensions
     claim = zero_count_claim(strata_of(*dimensions))
     assert (claim.strata > 0) == (p >= m)
-    for finite, infinite, lag in claim.values:
+    for finite, infinite, lag in claim.zeros:
         assert 0 <= finite + infinite <= n
         assert 0 <= lag <= n
         # n = sum of left indices + zeros, as there are no right indices.
@@ -415,7 +410,7 @@ def test_rank_counts_zeros(dimensions: tuple[int, int, int]) -> None:
 @pytest.mark.timeout(120)
 def test_rank_counts_zeros_with_two_states_and_two_outputs() -> None:
     claim = zero_count_claim(strata_of(2, 2, 1))
-    assert claim.values == ((0, 0, 2), (0, 1, 1), (0, 2, 0), (1, 0, 1), (1, 1, 0), (2, 0, 0))
+    assert claim.zeros == ((0, 0, 2), (0, 1, 1), (0, 2, 0), (1, 0, 1), (1, 1, 0), (2, 0, 0))
 
 
 def test_a_stratum_where_a_claim_fails_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -85,8 +85,8 @@ def file_graph(modules: Iterable[Module]) -> Graph:
 
 
 def place(name: str) -> str:
-    """Return `exact/pairs` for a module in that folder, `proofs/worlds.py` for a file at the top of a room, `exact` for the room itself; in
-    numeric/method and numeric/plant one folder more.
+    """Return `exact/pairs` for a module in that folder, `proofs/deciding.py` for a file at the top of a room, `exact` for the room itself;
+    in numeric/method and numeric/plant one folder more.
     """
     match name.split("."):
         case ["faultspace"]:

@@ -66,6 +66,7 @@ def test_the_page_has_the_steps(release: ModuleType) -> None:
     assert told == [step.command for step in release.STEPS], "make it again: .ci/release"
 
 
+@pytest.mark.searches
 def test_the_pages_that_are_not_in_the_tree_are_made(release: ModuleType, tmp_path: Path) -> None:
     """What is made is whole, what has left is as git last had it, and a file that never was is refused."""
     known = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "--is-shallow-repository"], capture_output=True, text=True)

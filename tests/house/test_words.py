@@ -68,3 +68,23 @@ def test_a_first_use_without_a_link_is_noticed() -> None:
     ):
         assert [word for word, _ in unlinked(wrong)] == ["Lag"]
     assert unlinked("# The lag\n\n| lag |\n\n`lag`\n\n```sh\nlag\n```\n<!-- lag -->\n") == []
+
+
+# What people read first: sentences that are understood at first reading, without the words that only we use.
+FIRST = [ROOT / "README.md", *(DOCS / name for name in ("index.md", "review.md")), *sorted((DOCS / "start").glob("*.md"))]
+FIRST += sorted((DOCS / "tutorials").glob("*.md"))
+OURS = re.compile(r"\b(told|judged|rooms|as printed|as the paper has it|the like)\b", re.IGNORECASE)
+LONGEST = 32  # words of a sentence, formulas left out
+
+
+def hard(page: str) -> list[str]:
+    """Return the sentences of a page that are long, or have a word of ours."""
+    text = re.sub(r"\]\([^)]*\)", "]", prose(page))
+    text = re.sub(r"\n\s*\n|\n\s*[-*] |\n\s*\d+\. |:\s*\n", ". ", text)
+    sentences = [" ".join(one.split()) for one in re.split(r"(?<=[.!?])\s+|: ", text)]
+    return [one for one in sentences if len(re.findall(r"[A-Za-z][A-Za-z'-]+", one)) > LONGEST or OURS.search(one)]
+
+
+def test_what_people_read_first_is_short_and_in_their_words() -> None:
+    assert [(page.name, one) for page in FIRST for one in hard(page.read_text("utf-8"))] == []
+    assert len(hard("It is told.\n\n" + "some words " * 20 + "end.\n\nAll is well.")) == 2

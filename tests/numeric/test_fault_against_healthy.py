@@ -131,7 +131,9 @@ def test_bad_data_are_refused_with_a_reason() -> None:
     fault_dimension_against_healthy(kept, healthy)
     assert np.array_equal(kept, before)
     for call, says in (
-        (lambda: healthy_reference(noise(0)[:100]), "at least 256"),
+        (lambda: healthy_reference(noise(0)[:100]), "at least 256 are needed: record more$"),
+        (lambda: healthy_reference(noise(0)[:255, :1]), "at least 256 are needed: record more$"),
+        (lambda: healthy_reference(np.tile(noise(0)[:300], 2)), "at least 512 are needed: record more, or take fewer channels$"),
         (lambda: healthy_reference(noise(0).T), "transposed"),
         (lambda: healthy_reference(noise(0) * [1, 1, 1, 0]), "no noise to compare"),
         (lambda: healthy_reference(noise(0), np.ones((5, 1))), "equal numbers"),

@@ -261,7 +261,10 @@ def test_one_channel_cannot_tell_fault_from_noise() -> None:
         (np.full((100, 2), 3.0), None, "constant"),
         (np.zeros((100, 2)), None, "constant"),
         (np.random.default_rng(0).standard_normal((3, 500)), None, r"\(N, p\)"),
-        (np.random.default_rng(0).standard_normal((15, 2)), None, "at least 19 samples"),
+        (np.random.default_rng(0).standard_normal((15, 2)), None, "at least 19 samples .* give more samples or fewer channels$"),
+        (np.random.default_rng(0).standard_normal((8, 2)), None, "give more samples$"),  # one channel needs eleven
+        (np.random.default_rng(0).standard_normal((8, 1)), None, "give more samples$"),
+        (np.random.default_rng(0).standard_normal((3, 2)), 5, "give more samples$"),  # block_rows <= 0 would be refused
         (np.random.default_rng(0).standard_normal((100, 2)), 30, "block_rows <= 19"),
         (np.random.default_rng(0).standard_normal((100, 2)), 0, "positive integer"),
         (np.random.default_rng(0).standard_normal((100, 2)), 2.5, "positive integer"),

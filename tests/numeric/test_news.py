@@ -68,6 +68,8 @@ def test_identify_gives_a_fault_space_of_what_is_news_alone(kind: str) -> None:
     said = any("foretells a fault" in note for note in found.notes)
     if kind == "sine":
         assert (found.n_v, found.news, found.fault_space, found.isolation, said) == (1, 0, None, None, True)
+        advice = found.summary().split("## What to try next")[1]  # of three outputs and one fault
+        assert "faults vary more" in advice and "more outputs than independent faults" not in advice
     else:
         assert (found.n_v, found.news, said) == (1, 1, False) and found.isolation is not None
         assert found.isolation.answer == "a sensor fault on y2 explains it, and no other single sensor or actuator does"

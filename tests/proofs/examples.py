@@ -26,9 +26,9 @@ from faultspace.exact.limits.moesp import limit
 from faultspace.exact.structure.fault_columns import fault_space
 from faultspace.exact.structure.kernel_rows import KernelRepresentation, kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
-from faultspace.proofs.trust import limit_certificates as make_limit
 from faultspace.proofs.trust import structure_certificates as make
 from faultspace.proofs.trust.kernel_witnesses import chain_witness
+from faultspace.proofs.trust.limit_certificates import Certified
 
 Certificate = dict[str, Any]
 CUBIC = NumberField(("1", "-3", "-1", "4"))  # type: ignore[arg-type]
@@ -100,18 +100,18 @@ def experiments() -> dict[str, Experiment]:
 def limit_certificates(about: Experiment) -> Iterator[Certificate]:
     """Yield the certificates by both instruments and both regressions, where these have one solution."""
     found = limit(about)
-    yield make_limit.past_input_limit(found)
-    yield make_limit.past_input_and_output_limit(found)
+    yield Certified(found).past_input_limit()
+    yield Certified(found).past_input_and_output_limit()
     if found.true_AC is not None:
-        yield make_limit.output_error_inputs(found)
+        yield Certified(found).output_error_inputs()
     if found.moesp is not None:
-        yield make_limit.moesp_inputs(found)
+        yield Certified(found).moesp_inputs()
 
 
 def forged_inputs(about: Experiment, B: object, D: object) -> Certificate:
     """Return a certificate as if these B and D were what the true-AC regression gives."""
     found = limit(about)
-    return written(make_limit.output_error_inputs(replace(found, true_AC=InputLimit(Matrix.of(B), Matrix.of(D)))))
+    return written(Certified(replace(found, true_AC=InputLimit(Matrix.of(B), Matrix.of(D)))).output_error_inputs())
 
 
 def systems(field: Field) -> Iterator[ResidualSystem]:

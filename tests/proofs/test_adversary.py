@@ -114,6 +114,7 @@ def test_every_target_is_in_the_ledger_and_no_attack_is_on_what_a_theorem_says()
     assert {record["attack"] for record in stored() if not refuting(record) and record["target"] in proved} == set()
 
 
+@pytest.mark.searches
 def test_the_file_of_results_is_whole_up_to_date_and_as_expected() -> None:
     schema = json.loads(resources.files("faultspace.proofs").joinpath("schemas/adversary.schema.json").read_text("utf-8"))
     jsonschema.Draft202012Validator(schema).validate(json.loads(FILE.read_text("utf-8")))

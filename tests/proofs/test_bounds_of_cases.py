@@ -16,21 +16,21 @@ from faultspace.base.errors import InvalidInput
 from faultspace.base.progress import silent
 from faultspace.cli.command_line import main
 from faultspace.exact import FaultySystem, Matrix, PrimeField, Rationals, ResidualSystem, fault_space, kernel_representation, with_pair
-from faultspace.proofs.brought import tables
+from faultspace.proofs.brought import sparse_systems, tables
 from faultspace.proofs.brought.claims import Answered, make_box, make_claim
 from faultspace.proofs.brought.conjectures import Conjectures, Sharpened
 from faultspace.proofs.brought.conjecturing import default_columns, sharpen
 from faultspace.proofs.brought.direct_sums import direct_sums, sum_sizes
 from faultspace.proofs.brought.drawn_cases import drawn
 from faultspace.proofs.brought.known_bounds import known_as
-from faultspace.proofs.language.evaluating import evaluate, exactly
+from faultspace.proofs.language.evaluating import Exactly, evaluate, exactly
 from faultspace.proofs.language.grammar import read
 from faultspace.proofs.language.vocabularies import CHOICE, ONE_A_AND_C, PAIR, RECORD, SYSTEM, VOCABULARIES
 from faultspace.proofs.quantities.cases import Choice, Pair, Record
 from faultspace.proofs.quantities.choices import OF_A_CHOICE
 from faultspace.proofs.quantities.pairs import OF_A_PAIR
 from faultspace.proofs.quantities.records import OF_A_RECORD
-from faultspace.proofs.quantities.registry import Kind
+from faultspace.proofs.quantities.registry import Kind, Subject
 from faultspace.proofs.trust.structure_certificates import accept
 from tests.thorough import every
 
@@ -369,3 +369,13 @@ def test_the_command_says_what_it_bounds(tmp_path: Path, capsys: pytest.CaptureF
     assert "u_rank(1) <= " in out and "records of the box, first by" in out and "drawn records" in out
     assert main(["conjecture", "u_rank(1)", "--about", "recod", "--by", "nu"]) == 2
     assert "the nearest is record" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("bound", ["n >= p + 2", "rank(G) >= p", "delay_known <= lag + 1", "m >= rank(A) - lag"])
+def test_sparse_systems_of_one_size_give_no_answer_for_those_of_another(bound: str) -> None:
+    box = make_claim("x", {"conclusion": "n >= 0"}).boxes["Q"]
+    node, answers = read(bound), dict[Any, Any]()
+    for number in range(6):
+        batch = sparse_systems._drawn(box, np.random.default_rng((2, number))).part(np.arange(25))
+        failing = sparse_systems._failing([node], batch, np.arange(25), answers).tolist()
+        assert failing == [k for k in range(25) if not evaluate(node, Exactly({"": Subject(batch.case(k))}))]

@@ -183,6 +183,9 @@ UNBOUNDED = [
     "any(solutions(s - 4) == n_z for s in windows(4))",
     "least(s for s in windows(7) if solutions(s - 7) < n + p) == lag + 8",
     "any(rank_T(s - 3) > 0 for s in windows(3))",
+    "implies(not left_invertible, all((2 * s - 45) * delay_known <= 3 for s in windows(0)))",  # its sign changes, and inf stays inf
+    "implies(not left_invertible, least(s for s in windows(0) if delay_known * (2 * s - 15) + rank_T(s) >= 3) == 8)",
+    "any(s != 40 and (s - 40) * delay_unknown > 30 for s in windows(n))",
     "any(rank_T(n + s - 3 - n) > 0 and rank_OT(2 + (s + 1)) != 4 for s in windows(3))",
     "least(s for s in windows(7) if solutions(1 + s - (n + 8) + n) < n + p) == lag + 8",
     "all(implies(len(left_minimal_indices) > 0, rank_OT(s) >= left_minimal_indices[0] or s < 9) for s in windows(0))",

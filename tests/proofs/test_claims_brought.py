@@ -174,6 +174,7 @@ def test_what_a_claim_reads_comes_with_certificates() -> None:
     assert "computed, not certified" in answer.summary()
 
 
+@pytest.mark.searches
 def test_every_quantity_of_a_counterexample_is_certified_or_named() -> None:
     for name, one in quantities().items():
         text = f"{name}(2)" if one.windowed else name
@@ -252,6 +253,7 @@ def test_a_claim_without_a_value_names_the_system_and_the_guard() -> None:
     assert answer.dropped[0].verdict is None and "no value" in answer.dropped[0].words
 
 
+@pytest.mark.searches
 @pytest.mark.parametrize("field", ["GF(2)", "GF(3)", "GF(5)"])
 def test_over_prime_fields_the_same_is_found(field: str) -> None:
     box = {"n": [1, 1], "m": [1, 1], "p": [1, 1]}

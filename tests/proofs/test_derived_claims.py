@@ -66,6 +66,7 @@ FOLLOWS = [
         ("rank(G) == 0", "left_invertible"),
         ("zero_feedthrough", "zeros_exist"),
     ),
+    ("rank(hstack(A, I(n + lag))) <= 2 * n + lag and min(lag, delay_known) <= n", (), ("lag_at_most_n",)),
     ("delay_unknown <= rank(hstack(A, F))", ("delay_unknown < inf",), ("delay_by_the_range", "delay_any_state_longer")),
     ("n + m >= delay_unknown + rank(C)", ("delay_unknown < inf",), ("delay_by_outputs", "delay_any_state_longer")),
     (
@@ -102,6 +103,21 @@ ONLY_LOOKS_SO = [
     ("least(s for s in windows(0) if rank_T(s + 1) == rank_T(s)) == delay_known", ()),
     ("max(lag, delay_known) <= n", ()),
     ("min(n, delay_known) == delay_known", ()),
+    # what may be -inf is not calculated with, and a matrix that may have no size says nothing of its size
+    ("lag <= n and 0 - min(0, 0 - delay_known) < inf", ()),
+    ("lag <= n and 0 - min(0, delay_known * (lag - n - 1)) < inf", ()),
+    ("lag <= n and max(0 - delay_known, 0 - inf) < 1 + max(0 - delay_known, 0 - inf)", ("max(0 - delay_known, 0 - inf) < inf",)),
+    ("lag == n and (n >= 0 or rank(I(lag - n)) == 0)", ()),
+    ("lag == n and (n >= 0 or rank(zeros(1, lag - n)) == 0)", ()),
+]
+
+WITHOUT_A_VALUE = [
+    ("left_invertible or n <= 20", ("min(n, -delay_known) <= n",)),
+    ("left_invertible or n <= 20", ("delay_known <= 5 - min(n, 0 - delay_known)",)),
+    ("left_invertible or n <= 20", ("max(-delay_unknown, n - delay_known) <= n",)),
+    ("left_invertible or n <= 20", ("implies(left_invertible, rank(zeros(n - delay_known, 1)) >= 0)",)),
+    ("lag <= min(n, 40)", ("implies(lag <= 40, rank(I(40 - lag)) >= 0)",)),
+    ("lag <= n and n >= m", ("n < m or is_zero(zeros(p, n - m))",)),
 ]
 
 
@@ -115,6 +131,12 @@ def test_what_only_looks_like_a_theorem_is_not_proved(conclusion: str, hypothese
     assert proved(conclusion, *hypotheses) is None
 
 
+def test_what_has_no_value_or_is_minus_infinity_proves_nothing() -> None:
+    """It makes nothing finite, and no side of a matrix a number of rows."""
+    assert [one for one in WITHOUT_A_VALUE if proved(one[0], *one[1])] == []
+
+
+@pytest.mark.searches
 def test_a_claim_of_the_ledger_is_proved_just_where_rocq_has_proved_it() -> None:
     verdicts = {f"{one.id}--{reading.id}": reading.proved for one in load() for reading in one.readings}
     listed = [one for one in readings().values() if one.about == SYSTEM]  # the theorems in the language are about single systems

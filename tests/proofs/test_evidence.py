@@ -13,6 +13,7 @@ from dataclasses import fields
 from itertools import product
 from typing import Any
 
+import numpy as np
 import pytest
 
 from faultspace.base.aside import aside
@@ -32,6 +33,7 @@ from faultspace.proofs.evidence.alternatives import ALTERNATIVES, PAIRS, examine
 from faultspace.proofs.evidence.exhaustive import all_systems, orbits
 from faultspace.proofs.evidence.families import adversarial, random_systems, shift_registers
 from faultspace.proofs.evidence.once_a_run import in_run
+from faultspace.proofs.evidence.orbits_by_stages import orbits_by_stages
 from faultspace.proofs.evidence.subjects import kernel_once, space_once
 from faultspace.proofs.trust import checker, structure_certificates
 from faultspace.proofs.trust import structure_certificates as make
@@ -128,6 +130,7 @@ def test_a_certificate_on_which_several_rest_is_counted_once(monkeypatch: pytest
     assert results[0].to_json()["certificates_accepted"] == results[0].outcome.accepted
 
 
+@pytest.mark.searches
 def test_a_second_run_of_the_same_process_counts_what_it_has_decided_itself(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is kept of a system is kept for one run, though the processes that do the work outlive it."""
     checks = [Check("example_v.one_fault"), Check("zeros_of_pairs.number"), Check("canonical_form.popov_rows")]
@@ -203,6 +206,35 @@ def test_invariants_of_all_systems_are_those_of_their_orbits() -> None:
 
 
 SYSTEMS = [system for _, system in adversarial() if system.n <= 2]
+
+
+@pytest.mark.parametrize(("n", "p", "m"), [(0, 0, 0), (1, 1, 1), (2, 1, 1), (1, 2, 2), (2, 0, 2), (2, 2, 0), (0, 2, 2), (3, 0, 0)])
+def test_orbits_by_stages_are_those_of_the_list_of_all_systems(n: int, p: int, m: int) -> None:
+    """The sizes are the same, and no two representatives lie in one orbit."""
+    found, listed = list(orbits_by_stages(n, p, m)), orbits(2, n, p, m)
+    assert sorted(one.size for one in found) == sorted(one.size for one in listed)
+    assert sum(one.size for one in found) == 2 ** ((n + p) * (n + m))
+
+
+@pytest.mark.parametrize(("n", "p", "m"), [(1, 1, 1), (2, 1, 1), (1, 1, 2)])
+def test_a_representative_stands_for_what_every_change_of_basis_makes_of_it(n: int, p: int, m: int) -> None:
+    groups = [[np.array(g).reshape(k, k) for g in product((0, 1), repeat=k * k) if round(np.linalg.det(np.array(g).reshape(k, k))) % 2]
+              for k in (n, p, m)]  # fmt: skip
+    seen: set[bytes] = set()
+    for one in orbits_by_stages(n, p, m):
+        A, F, C, G = (np.array(part.to_json(), dtype=np.int64) for part in (one.system.A, one.system.F, one.system.C, one.system.G))
+        images = set()
+        for T, U, V in product(*groups):
+            back = next(S for S in groups[0] if not ((S @ T + np.eye(n)) % 2).any())
+            images.add(b"".join((part % 2).astype(np.int8).tobytes() for part in (T @ A @ back, T @ F @ V, U @ C @ back, U @ G @ V)))
+        assert len(images) == one.size and not images & seen
+        seen |= images
+    assert len(seen) == 2 ** ((n + p) * (n + m))
+
+
+def test_larger_vectors_than_a_number_has_bits_are_refused() -> None:
+    with pytest.raises(ValueError, match="n \\+ m"):
+        next(orbits_by_stages(4, 1, 3))
 
 
 def test_what_is_kept_is_what_is_found() -> None:

@@ -27,7 +27,8 @@ from faultspace.exact.limits.inputs import InputLimit
 from faultspace.exact.limits.moesp import PopulationLimits, limit
 from faultspace.exact.limits.moments import covariances
 from faultspace.proofs.trust import checker
-from faultspace.proofs.trust import limit_certificates as make
+from faultspace.proofs.trust import limit_certificates as limit_certificates_module
+from faultspace.proofs.trust.limit_certificates import Certified
 from faultspace.proofs.trust.structure_certificates import Unprovable
 from tests.oracle import truth
 from tests.proofs.examples import (
@@ -43,7 +44,7 @@ from tests.proofs.examples import (
     written,
 )
 
-MAKERS = (make.past_input_limit, make.past_input_and_output_limit, make.output_error_inputs, make.moesp_inputs)
+MAKERS = (Certified.past_input_limit, Certified.past_input_and_output_limit, Certified.output_error_inputs, Certified.moesp_inputs)
 
 
 def drawn(rng: Random) -> dict[str, Any]:
@@ -74,7 +75,7 @@ def test_random_limits_are_certified_and_true() -> None:
             continue
         for maker in MAKERS:
             try:
-                certificate = written(maker(found))
+                certificate = written(maker(Certified(found)))
             except Unprovable:
                 refused += 1
                 continue
@@ -105,12 +106,12 @@ def test_every_limit_certificate_agrees_with_the_schema() -> None:
 
 def test_no_solution_that_is_only_one_has_no_certificate() -> None:
     unseen = limit(experiment(C=[[0]], s=1))
-    for maker, reason in ((make.output_error_inputs, "not unique"), (make.moesp_inputs, "more than one")):
+    for maker, reason in ((Certified.output_error_inputs, "not unique"), (Certified.moesp_inputs, "more than one")):
         with pytest.raises(Unprovable, match=reason):
-            maker(unseen)
+            maker(Certified(unseen))
     # Two inputs of which the second repeats the first, three samples later: unique all the same, for one state and two samples.
     late = experiment(B=[[1, 0]], D=[[0, 1]], u_filter=[[[1], [0]], [[0], [0]], [[0], [0]], [[0], [1]]], v_filter=[[[0]], [[1]]], s=1)
-    checker.verify(make.output_error_inputs(limit(late)))
+    checker.verify(Certified(limit(late)).output_error_inputs())
 
 
 # -- what each refusal keeps out -----------------------------------------------------------------------------------------
@@ -118,21 +119,22 @@ def test_no_solution_that_is_only_one_has_no_certificate() -> None:
 
 def unstable_filter() -> Certificate:
     """u(k) = e(k) - 2 u(k-1) has a solution of its Lyapunov equation, and no stationary covariance."""
-    return make.past_input_limit(limit(replace(experiment(), u_filter=Filter((Matrix.of([[1]]),), (fmpq(1), fmpq(2))))))
+    return Certified(limit(replace(experiment(), u_filter=Filter((Matrix.of([[1]]),), (fmpq(1), fmpq(2)))))).past_input_limit()
 
 
 def unstable_system(monkeypatch: pytest.MonkeyPatch) -> Certificate:
     """Nor has the state of x+ = 2 x + u + v."""
     monkeypatch.setattr(reading, "is_stable", lambda _: True)
-    return make.moesp_inputs(limit(experiment(A=[[2]])))
+    return Certified(limit(experiment(A=[[2]]))).moesp_inputs()
 
 
 def one_input_twice(monkeypatch: pytest.MonkeyPatch) -> Certificate:
     """u_1 = u_2 is the whole input: B = [0 1] does what B = [1 0] does."""
     about = experiment(B=[[1, 0]], D=[[0, 0]], u_filter=[[[1], [1]]], v_filter=[[[0]]])
-    monkeypatch.setattr(make, "_prime", lambda *_: 2**61 - 1)
+    monkeypatch.setattr(limit_certificates_module, "_prime", lambda *_: 2**61 - 1)
     found = InputLimit(Matrix.of([[0, 1]]), Matrix.of([[0, 0]]))
-    return make.output_error_inputs(PopulationLimits(about, covariances(about), None, None, None, found, None))  # type: ignore[arg-type]
+    limits = PopulationLimits(about, covariances(about), None, None, None, found, None)  # type: ignore[arg-type]
+    return Certified(limits).output_error_inputs()
 
 
 def one_input_twice_as_instrument() -> Certificate:
@@ -146,7 +148,7 @@ def one_input_twice_as_instrument() -> Certificate:
 
 def unseen_state(monkeypatch: pytest.MonkeyPatch) -> Certificate:
     """With C = 0 every B predicts the same."""
-    monkeypatch.setattr(make, "_prime", lambda *_: 2**61 - 1)
+    monkeypatch.setattr(limit_certificates_module, "_prime", lambda *_: 2**61 - 1)
     return forged_inputs(experiment(C=[[0]], v_filter=[[[0]]]), [[5]], [[0]])
 
 
@@ -155,7 +157,7 @@ def plain_least_squares() -> Certificate:
     found = limit(experiments()["coloured"])
     W = found.blocks.yf_uf @ Matrix(QQ, 2, 2, found.blocks.uf_uf.flint.inv())
     B, D = [[str(W[1, 0])]], [[str((W[0, 0] + W[1, 1]) / 2)]]
-    certificate = written(make.moesp_inputs(found))
+    certificate = written(Certified(found).moesp_inputs())
     return spoiled(certificate, ("statement.B", B), ("statement.D", D), ("witness.inverse", [["0", "0"]]))
 
 

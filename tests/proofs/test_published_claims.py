@@ -52,6 +52,7 @@ def quick_box(claim: Claim) -> Box:
     return replace(box, n=(1, 2), total=box.total if claim.expected["Q"] == Answered.REFUTED else min(box.total, 4))
 
 
+@pytest.mark.searches
 @pytest.mark.parametrize("name", list(LITERATURE)[:: every()] + list(PAPERS))
 def test_a_statement_of_the_field_gets_its_verdict(name: str) -> None:
     """What is known to be true is not refuted, and what is known to be false is."""
@@ -103,6 +104,7 @@ def test_a_claim_of_the_ledger_about_more_than_a_system_gets_its_verdict_in_its_
     assert answer.as_expected, answer.title
 
 
+@pytest.mark.searches
 @pytest.mark.parametrize("name", [name for name in LEDGER if name not in OF_MORE][:: every()] + OF_MORE[:: 2 * every()])
 def test_a_claim_of_the_ledger_gets_its_verdict(name: str) -> None:
     claim = LEDGER[name]

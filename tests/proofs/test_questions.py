@@ -26,8 +26,18 @@ from faultspace.proofs.verdict import workbench
 from faultspace.proofs.verdict.ablation import Ablation
 from faultspace.proofs.verdict.ledger import load
 from faultspace.proofs.verdict.workbench import Workbench
-from faultspace.proofs.worlds import READINGS
 
+# What the ledger says of single systems alone, and what stands.
+READINGS = (
+    "language.theorem-2--pencil-zeros-minimal", "language.theorem-2--pencil-zeros", "language.assumption-4--n-known",
+    "language.assumption-4--n-unknown", "language.assumption-4--lag", "language.proposition-3--n-alone",
+    "language.proposition-3--lag-exactly", "language.proposition-3--normal-rank", "language.problem-11--window-n-plus-1",
+    "language.problem-11--lag-plus-1", "language.problem-11--dimension", "zero_feedthrough.exactly_when",
+    "language.trajectory-recovered--state-known", "language.trajectory-recovered--no-finite-zeros",
+    "trajectory_recovered.zero_feedthrough_signal", "language.objection-3--gap-without-controllability",
+    "language.objection-3--ranks-without-minimality", "window_ranks.ranks", "language.window-ranks--indices", "window_ranks.solutions",
+    "language.window-ranks--limit", "language.sharp-windows--gap",
+)  # fmt: skip
 ONE_STATE = ResidualSystem.of([[0]], [[1]], [[1]], [[0]])
 
 

@@ -108,6 +108,7 @@ def test_what_is_stated_is_read_before_any_file_of_proofs_is_imported() -> None:
     assert words & ours <= locked | own | bound, "and the statement uses no word of another file"
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_what_computes_to_false_is_no_theorem() -> None:
     terms = translated(FALSE)
@@ -117,6 +118,7 @@ def test_what_computes_to_false_is_no_theorem() -> None:
     assert [one.result for one in recomputed([FALSE, RANKS])] == ["rejected", "accepted"]
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_a_theorem_that_rests_on_an_axiom_does_not_count(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(rocq_export, "HEAD", f"{rocq_export.HEAD}Axiom cheat : forall b, b = true -> false.\n")
@@ -124,6 +126,7 @@ def test_a_theorem_that_rests_on_an_axiom_does_not_count(monkeypatch: pytest.Mon
         proved([Terms((), "true", "false", "cheat _")], theory())
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_what_takes_too_long_is_undecided() -> None:
     (one,) = recomputed([RANKS], seconds=0.01)
@@ -173,7 +176,7 @@ def test_no_string_of_a_certificate_reaches_rocq() -> None:
                 if path != ("kind",):
                     assert words_of(text_of(candidate, translated) or "") <= words, (path, value)
                 seen[certificate["kind"]] += 1
-    assert seen.keys() == COVERED.keys() and sum(seen.values()) > (10_000 if THOROUGH else 1_200)
+    assert seen.keys() == COVERED and sum(seen.values()) > (10_000 if THOROUGH else 1_200)
 
 
 def test_a_pivot_that_carries_source_is_refused(tmp_path: Path) -> None:
@@ -196,7 +199,7 @@ def test_a_pivot_that_carries_source_is_refused(tmp_path: Path) -> None:
 
 
 def test_every_kind_is_covered_and_another_is_not() -> None:
-    assert COVERED.keys() == checker.KINDS.keys()
+    assert checker.KINDS.keys() == COVERED
     with pytest.raises(NotCovered, match="do not speak of the kind"):
         translated({**RANKS, "kind": "another"})
 
@@ -228,6 +231,7 @@ def test_what_is_no_prime_is_rejected_before() -> None:
         exported(spoiled(RANKS, ("witness.prime", 2**61)))
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_the_command_tells_what_rocq_says(tmp_path: Path) -> None:
     files = []

@@ -171,6 +171,7 @@ def test_what_is_hidden_is_refused_by_the_sentence_alone(hiding: str) -> None:
     assert refused("Other.v", hiding.format("Time Notation a := b."))
 
 
+@pytest.mark.programs
 @pytest.mark.timeout(600)
 def test_rocq_cuts_sentences_where_we_do() -> None:
     """Each hiding that coqc accepts at all, with a definition in it that a last sentence uses: so Rocq has read it, and so have we."""
@@ -191,6 +192,7 @@ def test_rocq_cuts_sentences_where_we_do() -> None:
     assert seen >= 5
 
 
+@pytest.mark.programs
 @pytest.mark.parametrize("around", ["{}", "Module Certified.\n{}End Certified.\n"])
 def test_a_file_of_proofs_cannot_say_what_is_proved_of_a_certificate(theory: Path, tmp_path: Path, around: str) -> None:
     """It has no lock, and a name that it brings is taken for the one that was there: for the statement about the system, too."""

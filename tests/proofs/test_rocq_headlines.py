@@ -266,6 +266,7 @@ def in_part(headlines: list[Headline]) -> list[Headline]:
 # (a) closed, and what the ledger names
 
 
+@pytest.mark.programs
 @pytest.mark.timeout(900)
 def test_every_headline_is_closed(theory: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     names = {h.name for h in HEADLINES}
@@ -320,6 +321,7 @@ def test_a_changed_headline_is_refused(theory: Path) -> None:
     assert said.split("\n") == [*(f"== {h.name}" for h in about), ""]
 
 
+@pytest.mark.programs
 @pytest.mark.timeout(900)
 def test_the_replay_notices_a_change_that_changes_nothing(theory: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     about = [h for h in HEADLINES if h.name == "proposition_3"]
@@ -361,10 +363,12 @@ def tiny(proofs: str = "", headlines: str = "") -> dict[str, str]:
     return {**TINY, "Proofs.v": TINY["Proofs.v"] + proofs, "Headlines.v": TINY["Headlines.v"] + headlines}
 
 
+@pytest.mark.programs
 def test_a_closed_theorem_passes(theory: Path) -> None:
     assert asked(["good"], tiny(), compiled_theory(texts=tiny())) == {"good": "one = 1"}
 
 
+@pytest.mark.programs
 @pytest.mark.parametrize(
     ("proofs", "headlines", "names", "reason"),
     [

@@ -103,6 +103,7 @@ def test_instances_mean_what_the_headlines_would_mean_by_them(theory: Path) -> N
     assert compile_file(theory, "Instances.v", question()).strip() == CLOSED
 
 
+@pytest.mark.programs
 def test_what_needs_more_of_mathcomp_is_proved_where_that_is_installed(theory: Path) -> None:
     """The files beside the theory state instances, too, and rest on nothing."""
     found = instances(STATEMENTS, BEYOND)

@@ -42,6 +42,7 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.programs
 def test_what_was_changed_in_the_cache_is_compiled_again(cache: Path) -> None:
     compiled: list[int] = []
     place = rocq_build.compiled_theory(lambda name, done, total: compiled.append(done), texts=TINY)
@@ -55,6 +56,7 @@ def test_what_was_changed_in_the_cache_is_compiled_again(cache: Path) -> None:
         assert "True" in rocq_build.compile_file(place, "Asked.v", "From faultspace Require Import Second.\nCheck second.\n")
 
 
+@pytest.mark.programs
 def test_a_file_that_does_not_compile_leaves_nothing(cache: Path) -> None:
     wrong = TINY | {"Second.v": "From faultspace Require Import First.\nLemma second : False. Proof. exact first. Qed.\n"}
     with pytest.raises(rocq_build.BrokenTheory, match=r"Second\.v does not compile"):
@@ -62,6 +64,7 @@ def test_a_file_that_does_not_compile_leaves_nothing(cache: Path) -> None:
     assert not [one for one in (cache / "faultspace" / "rocq").iterdir() if one.is_dir()]
 
 
+@pytest.mark.programs
 def test_other_sources_have_another_place(cache: Path) -> None:
     assert rocq_build.compiled_theory(texts=TINY) != rocq_build.compiled_theory(texts=TINY | {"First.v": TINY["First.v"] + "(* *)\n"})
 
@@ -72,6 +75,7 @@ def test_without_rocq_it_is_told_what_to_install(monkeypatch: pytest.MonkeyPatch
         rocq_build.compiled_theory()
 
 
+@pytest.mark.programs
 @pytest.mark.parametrize("question", ["PLACES", "PROBE"])
 def test_a_mathcomp_that_is_not_there_is_no_broken_theory(cache: Path, monkeypatch: pytest.MonkeyPatch, question: str) -> None:
     """It is not there at all, or it is another one: both are said before anything is compiled."""
@@ -81,6 +85,7 @@ def test_a_mathcomp_that_is_not_there_is_no_broken_theory(cache: Path, monkeypat
     assert not list(cache.iterdir())
 
 
+@pytest.mark.programs
 def test_another_mathcomp_has_another_place(cache: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """The bytes of both outermost files count; MathComp is not loaded for it, so that a look at what is there takes little."""
     ours = rocq_build.installation()
@@ -105,6 +110,7 @@ def test_the_second_checker_finds_no_axiom() -> None:
     second_check(theory, 1200)
 
 
+@pytest.mark.programs
 @pytest.mark.skipif(rocq_build.found() is None or COQCHK is None, reason=rocq_build.INSTALL)
 @pytest.mark.parametrize(
     "assumed, reason",
@@ -201,6 +207,7 @@ def test_what_is_compiled_is_what_was_judged(monkeypatch: pytest.MonkeyPatch, as
         ask()
 
 
+@pytest.mark.programs
 @pytest.mark.parametrize("spoil", ["source", "more", "folder", "above", "link"])
 def test_a_cache_that_may_be_somebody_elses_is_not_believed(cache: Path, spoil: str) -> None:
     place = rocq_build.compiled_theory(texts=TINY)
@@ -220,6 +227,7 @@ def test_a_cache_that_may_be_somebody_elses_is_not_believed(cache: Path, spoil: 
         rocq_build.compiled_theory(texts=TINY)
 
 
+@pytest.mark.programs
 def test_a_cache_of_another_user_is_not_believed(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     rocq_build.compiled_theory(texts=TINY)
     me = os.getuid()
@@ -230,6 +238,7 @@ def test_a_cache_of_another_user_is_not_believed(cache: Path, monkeypatch: pytes
         rocq_build.compiled_theory(texts={"First.v": TINY["First.v"]})
 
 
+@pytest.mark.programs
 def test_what_is_compiled_is_for_the_user_alone(cache: Path) -> None:
     before = os.umask(0)
     try:
@@ -239,6 +248,7 @@ def test_what_is_compiled_is_for_the_user_alone(cache: Path) -> None:
     assert [stat.S_IMODE(one.stat().st_mode) for one in (place, place.parent, place.parent.parent)] == [0o700] * 3
 
 
+@pytest.mark.programs
 def test_the_same_source_is_compiled_to_the_same_bytes(cache: Path) -> None:
     """By this a vocabulary in the cache is known to be ours."""
     place = rocq_build.compiled_theory(texts=TINY)
@@ -247,6 +257,7 @@ def test_the_same_source_is_compiled_to_the_same_bytes(cache: Path) -> None:
     assert other["First.v"] != (place / "First.vo").read_bytes()
 
 
+@pytest.mark.programs
 @pytest.mark.parametrize(
     "text, reason",
     [
@@ -264,6 +275,7 @@ def test_coqc_runs_under_limits(cache: Path, text: str, reason: str) -> None:
         rocq_build.compile_file(place, "Asked.v", text, seconds=1)
 
 
+@pytest.mark.programs
 @pytest.mark.parametrize(
     "limit, most, text",
     [
@@ -280,6 +292,7 @@ def test_memory_and_output_are_limited(cache: Path, monkeypatch: pytest.MonkeyPa
         rocq_build.compile_file(place, "Asked.v", text)
 
 
+@pytest.mark.programs
 def test_coqc_has_a_home_of_its_own(cache: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A compiler made for the test prints where it runs."""
     compiler = tmp_path / "coqc"
@@ -291,6 +304,7 @@ def test_coqc_has_a_home_of_its_own(cache: Path, tmp_path: Path, monkeypatch: py
     assert Path.home() not in (Path(home), Path(folder)) and Path.cwd() != Path(folder)
 
 
+@pytest.mark.programs
 def test_coqc_is_not_told_where_to_load_from(cache: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A compiler made for the test prints its environment: of the user's, what GIVEN names, and nothing that could load other files."""
     misleading = ("COQPATH", "ROCQPATH", "OCAMLPATH", "COQLIB", "ROCQLIB", "COQBIN", "COQCORELIB", "CAML_LD_LIBRARY_PATH", "OCAMLFIND_CONF",
@@ -316,6 +330,7 @@ def test_coqc_is_not_told_where_to_load_from(cache: Path, tmp_path: Path, monkey
         assert "HOME" in names, "else they load from .local/share/coq of the folder where they are started"
 
 
+@pytest.mark.programs
 @pytest.mark.skipif(rocq_build.found() is None, reason=rocq_build.INSTALL)
 def test_a_folder_mathcomp_on_coqpath_is_not_believed_and_what_is_is_told(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
@@ -345,6 +360,7 @@ def test_a_folder_mathcomp_on_coqpath_is_not_believed_and_what_is_is_told(
     assert Report("quick", (), (), "", 0.0, "asked", believed).to_json()["believed"] == believed
 
 
+@pytest.mark.programs
 def test_a_cache_that_cannot_be_written_is_no_broken_theory(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The verdicts then rest on certificates, and the run says why."""
     (cache / "file").write_text("", "utf-8")

@@ -20,7 +20,7 @@ from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.rocq.terms import Terms
 from faultspace.proofs.trust import checker
 from faultspace.proofs.trust import structure_certificates as make
-from faultspace.proofs.trust.limit_certificates import moesp_inputs, output_error_inputs, past_input_and_output_limit, past_input_limit
+from faultspace.proofs.trust.limit_certificates import Certified
 from tests.proofs.examples import LEADING, OUTPUTS, SQRT2, Certificate, certificates, experiment, spoiled, written
 from tests.proofs.test_mutations import mutated, mutations
 from tests.proofs.test_rocq_hints import Questions, asked, translations
@@ -149,7 +149,7 @@ def test_degenerate_experiments_pass_and_other_ranks_do_not() -> None:
     questions = Questions()
     for name, changes in DEGENERATE.items():
         found = limit(experiment(**changes))
-        for certificate in map(written, (past_input_limit(found), past_input_and_output_limit(found))):
+        for certificate in map(written, (Certified(found).past_input_limit(), Certified(found).past_input_and_output_limit())):
             checker.verify(certificate)
             questions.ask(asked(translated(certificate)), True, name)
             for rank in ("limit", "observability", "joint"):
@@ -191,12 +191,13 @@ def input_forgeries(regression: Certificate, output_error: Certificate) -> list[
     return found
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_inputs_by_either_regression_are_recomputed_and_no_others() -> None:
     """Every table of the terms is looked at: with one entry more by one the check is false, and so are stability and both ranks."""
     questions = Questions()
     found = limit(experiment())
-    true = [written(make_inputs(found)) for make_inputs in (moesp_inputs, output_error_inputs)]
+    true = [written(make_inputs(Certified(found))) for make_inputs in (Certified.moesp_inputs, Certified.output_error_inputs)]
     for certificate in true:
         checker.verify(certificate)
         questions.ask(asked(translated(certificate)), True, certificate["statement"]["regression"])
@@ -217,7 +218,7 @@ def test_inputs_of_degenerate_experiments_and_of_several_inputs() -> None:
     questions = Questions()
     for name, changes in {**DEGENERATE, "two inputs": TWO_INPUTS}.items():
         found = limit(experiment(**changes))
-        for certificate in map(written, (moesp_inputs(found), output_error_inputs(found))):
+        for certificate in map(written, (Certified(found).moesp_inputs(), Certified(found).output_error_inputs())):
             checker.verify(certificate)
             questions.ask(asked(translated(certificate)), True, name)
             for matrix in "B", "D":

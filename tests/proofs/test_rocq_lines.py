@@ -17,8 +17,8 @@ from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.rocq import build as rocq_build
 from faultspace.proofs.rocq.build import NotProved
 from faultspace.proofs.rocq.export import translated
-from faultspace.proofs.rocq.export_fields import system_of
 from faultspace.proofs.rocq.export_lines import shown_at
+from faultspace.proofs.rocq.numbered import system_of
 from faultspace.proofs.rocq.recompute import ACCEPTED, proved, recomputed, theory
 from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.rocq.terms import Terms
@@ -240,6 +240,7 @@ def test_a_common_zero_over_an_extension_is_seen() -> None:
     assert questions.wrong() == []
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_a_proof_of_something_false_does_not_compile() -> None:
     terms = told(tried(OVER_AN_EXTENSION["a^2 + b^2 over Q"]), Random(1))
@@ -261,6 +262,7 @@ SMALL = {
 }  # fmt: skip
 
 
+@pytest.mark.programs
 @needs_rocq
 def test_smallest_lines_are_proved() -> None:
     certificates = [written(make.left_invertible_line(*pair)) for pair in SMALL.values()]

@@ -88,12 +88,14 @@ def restated(statement: Callable[[Headline], str]) -> list[str]:
     return [*rocq_locks.differences(LOCKED, made(texts))]
 
 
+@pytest.mark.mutants
 def test_changed_headlines_are_not_as_locked() -> None:
     said = restated(lambda one: f"Theorem {one.name}{one.statement.replace(*CHANGES[one.name])}.\nProof.")
     assert len(said) == len(CHANGES) == len(STATEMENTS.headlines)
     assert all(one.startswith(f"the headline {name} says") for one, name in zip(said, sorted(CHANGES), strict=True))
 
 
+@pytest.mark.mutants
 def test_headlines_with_one_hypothesis_more_are_not_as_locked() -> None:
     said = restated(with_hypothesis)
     more = r"the headline {} says .*(?:observable S|\(0 < 1\)%N) -> "
@@ -114,6 +116,7 @@ def test_the_hypothesis_is_one_that_proofs_alone_do_not_refuse(theory: Path) -> 
         compile_file(theory, "Weakened.v", f"{opening}\n{with_hypothesis(headline)} {headline.tactics} Qed.\n")
 
 
+@pytest.mark.mutants
 def test_changed_words_are_not_as_locked() -> None:
     texts = dict(TEXTS)
     for number, (_, word) in enumerate(WORDS):

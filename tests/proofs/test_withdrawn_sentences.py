@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import re
+from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -13,7 +15,7 @@ import pytest
 import sympy
 
 import faultspace as fs
-from faultspace import exact
+from faultspace import exact, numeric
 from faultspace.exact.system.systems import read_system
 from faultspace.proofs.brought.claim_files import read_claims
 from faultspace.proofs.rocq import terms
@@ -24,13 +26,20 @@ ROOT = Path(__file__).parents[2]
 PAPERS, LITERATURE = "faultspace/examples/papers.toml", "faultspace/examples/literature.toml"
 CLAIMS, CHOICES = "faultspace/examples/claims.toml", "faultspace/examples/choices.toml"
 GLOSSARY, CONCEPTS, CONSISTENCY = "docs/glossary.md", "docs/concepts.md", "docs/consistency.md"
-README, SENTENCES, SPEED = "README.md", "faultspace/review/sentences.toml", "docs/speed.md"
+README, SENTENCES, SPEED = "README.md", "proofs/verdict/cards.toml", "docs/speed.md"
 PAST_OUTPUTS = "numeric/method/model/past_outputs.py"
 
 UNMOVED: dict[str, Any] = {"A": [[0]], "F": [[0]], "C": [[1]], "G": [[0]]}  # a fault that nothing feels
 
+# Strongly observable, so that [K11] has the delay of a known state: it asks for state and fault together.
+LATER_UNKNOWN: dict[str, Any] = {"A": [[0, 0], [0, 0]], "F": [[0], [1]], "C": [[0, 1], [1, 0]], "G": [[0], [1]]}
+DELAYS = {"delay_known_state": 0, "delay_unknown_state": 1, "invariant_zero_polynomial": ["1"]}
+
 # The words that stood in a file, a system, and what is true of it, which contradicts them.
 SYSTEMS: list[tuple[str, str, dict[str, Any], dict[str, Any]]] = [
+    ("or unknown ([K11])", GLOSSARY, LATER_UNKNOWN, DELAYS),
+    ("[K11] for an unknown one", "exact/structure/inversion.py", LATER_UNKNOWN, DELAYS),
+    ("[MZ10], [K11]", "numeric/method/signal/pair_zeros.py", LATER_UNKNOWN, DELAYS),
     (
         "decoupling zeros among them",
         "numeric/audit/RULES.md",
@@ -412,3 +421,53 @@ def test_what_exists_for_some_system_is_not_said_of_each() -> None:
         one.id for one in windows if f"claim.sharp-windows--{one.id}" not in text("faultspace/examples/ledger.toml")
     }
     assert "`sharp-windows` in part | sums over lists" not in page, "what is not said there is that a system exists"
+
+
+def least(accepted: Callable[[int], object]) -> int:
+    """Return the least number of samples that is not refused."""
+    for samples in range(1, 400):
+        with contextlib.suppress(fs.errors.InvalidData):
+            accepted(samples)
+            return samples
+    raise AssertionError("every number is refused")
+
+
+def test_docstrings_say_what_is_refused() -> None:
+    draw = np.random.default_rng(1)
+    y, u = draw.standard_normal((400, 3)), draw.standard_normal((400, 1))
+    assert [least(lambda N, p=p: numeric.healthy_reference(y[:N, :p])) for p in (1, 2)] == [256, 256]  # type: ignore[misc]
+    assert "fewer than 64 samples a channel, channels" not in text("numeric/plant/healthy/healthy_model.py")
+    assert least(lambda N: numeric.count_faults(y[:N, :2], u[:N], order=1)) == 2 * 3 * (2 + 1) + 2, "rows of degree 2, not 4"
+    assert "rows of degree order + 3, outputs" not in text("numeric/method/rows/fault_count.py")
+    A, C = np.diag([0.1, 0.8]), np.array([[1.0, 1.0], [1.0, 2.0], [3.0, 1.0]])
+    assert least(lambda N: numeric.fault_space_by_rows(y[:N], u[:N], A, C, n_v=1)) == 2 * 4 * (2 + 1) + 2, "two rows, degrees 1 and 2"
+    assert "too short for rows of degree n + 1" not in text("numeric/method/rows/space_by_rows.py")
+    one, three = (numeric.StateSpaceModel(np.eye(n) / 2, np.ones((n, 1)), np.ones((p, n)), np.zeros((p, 1))) for n, p in ((1, 1), (3, 2)))
+    assert least(lambda N: numeric.residual(y[:N, :1], u[:N], one)) == least(lambda N: numeric.residual(y[:N, :2], u[:N], three)) == 2
+    assert "fewer than n samples" not in text("numeric/method/model/residuals.py")
+
+
+def test_what_is_said_of_lags_constants_and_faults_without_effect() -> None:
+    draw = np.random.default_rng(1)
+    y, u = draw.standard_normal((400, 2)), draw.standard_normal((400, 1))
+    assert numeric.arx_reduction(y, u, order=7, lags=4).order == 7
+    with pytest.raises(fs.errors.InvalidData, match=r"^lags: got 2; order 7 with 2 outputs needs 4 or more: pass more lags$"):
+        numeric.arx_reduction(y, u, order=7, lags=2)  # 400 samples do not "carry 2 lags"
+    assert numeric.fault_dimension(np.hstack([y[:, :1], np.ones((400, 1))])).channel_scales.shape == (2,), "one constant output is taken"
+    assert "NaN, constant or too few" not in text("numeric/method/ranks/rank_gap.py")
+    unseen = numeric.reconstruct_fault(y, np.diag([0.5, 0.3]), [[0.0], [1.0]], [[1.0, 0.0], [0.0, 0.0]], np.zeros((2, 1)))
+    assert unseen.delay is None and "a fault without any effect" not in text("numeric/method/signal/reconstruction.py")
+
+
+def test_what_is_said_of_modes_and_autoregressions() -> None:
+    from faultspace.numeric.plant.report.physical import modes
+
+    grows, turns = modes([2.0, -0.5], 1.0)
+    page = text("numeric/plant/report/physical.py")
+    assert grows.damping == -1.0 and "`damping`, 1 for a pole that does not oscillate" not in page
+    assert turns.frequency > 0.51 and "told as an oscillation at the Nyquist frequency" not in page
+
+    system = {"A": [["1/2"]], "B": [[0]], "C": [[1]], "D": [[1]], "F": [["1/2"]], "G": [[1]]}  # y = u + d, d(k) = d(k-1) / 2 + e(k)
+    found = exact.arx_limit(exact.read_experiment({**system, "s": 1, "past": 1, "u_filter": [[[1, 0]]], "v_filter": [[[0, 1]]]}), 1)
+    assert found.outputs[1] == exact.Matrix.of([["-1/2"]]), "1 - 2 q^-1 makes d white as well"
+    assert "Where Abar(q) d is white, and Abar G" not in text("exact/limits/autoregression.py")

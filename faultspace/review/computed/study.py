@@ -1,20 +1,17 @@
-"""What the page shows of numbers: the paper's Monte Carlo study on a few systems, its example in floats, and what audits counted.
+"""What the page shows of numbers: the paper's Monte Carlo study on a few systems, and its example in floats.
 
 study     a table for each plan, as published and as corrected, with the size of the run and what a reader should know of it
 example   ranks of the paper's example by theory, counted with two thresholds in floats, and over many records
-board     the audit's scoreboard: what each implementation was asked and met, and its first findings
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from importlib import resources
 from typing import Any
 
 from ...base.progress import Progress, silent
 from ...exact.structure.record import analyze
-from ...numeric.audit.scoreboard import Audited, Board
 from ...numeric.study.groups import by_zeros
 from ...numeric.study.paper_example import IDENTIFIED_WINDOW, PUBLISHED_THRESHOLD, SHOWN_WINDOWS, example_v, published_ranks
 from ...numeric.study.paper_example import SAMPLES as EXAMPLE_SAMPLES
@@ -23,7 +20,6 @@ from ...numeric.study.studies import SEED, STUDIES, Study, monte_carlo
 from ...proofs.evidence.families import paper_example
 
 SYSTEMS, RUNS = 8, 50  # of the study, and records of the example over which ranks are counted
-SHOWN = 5  # findings of an implementation that are shown in words
 
 
 def study(
@@ -58,30 +54,6 @@ def _plan(found: Study) -> dict[str, Any]:
         "groups": groups,
         "failed": len(found.failed),
         "decibels": sum(decibels) / len(decibels) if decibels else None,
-    }
-
-
-def board() -> dict[str, Any]:
-    """Return the counts. They are of the command that made the file, `python -m faultspace.numeric.audit.scoreboard`, not of this run."""
-    text = resources.files("faultspace.numeric.audit").joinpath("board.json").read_text("utf-8")
-    return {"implementations": [_counted(one) for one in Board.read(text).audited]}
-
-
-def _counted(one: Audited) -> dict[str, Any]:
-    passed, asked = one.total
-    return {
-        "name": one.name,
-        "title": one.title,
-        "version": one.version,
-        "vectors": one.vectors,
-        "passed": passed,
-        "asked": asked,
-        "functions": {name: {"passed": counts[0], "asked": counts[1]} for name, counts in one.counts.items()},
-        "failed": len(one.failed),
-        "findings": [
-            {"slug": found.slug, "function": found.function, "effect": found.effect, "verdict": found.verdict}
-            for found in one.failed[:SHOWN]
-        ],
     }
 
 

@@ -12,8 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
-from statistics import median
 
 from markupsafe import Markup, escape
 
@@ -30,14 +28,6 @@ class Series:
     label: str
     values: Sequence[float | None]
     number: int
-
-
-def ranks(windows: Sequence[int], series: Sequence[Series], title: str) -> Markup:
-    """Return ranks over the number of samples s."""
-    values = [value for one in series for value in one.values if value is not None]
-    frame = Frame(Axis(windows[0] - 0.5, windows[-1] + 0.5), spanning([0, *values]), WIDTH, HEIGHT)
-    body = frame.grid("samples s of the window", "rank", windows) + _drawn(frame, windows, series)
-    return _with_legend(WIDTH, HEIGHT, title, series, body)
 
 
 def closing_in(lengths: Sequence[int], series: Sequence[Series], title: str) -> Markup:
@@ -60,52 +50,6 @@ def falling(values: Sequence[float], right: int, threshold: float, title: str) -
     series = [Series(f"the first {right}, as many as the exact rank", kept, 1), Series("the others", rest, 2)]
     body += "".join(_marks(frame, places, one) for one in series)
     return _with_legend(WIDTH, HEIGHT, title, [*series, Series(f"threshold {threshold:g}", [], 0)], body)
-
-
-def strips(rows: Sequence[tuple[str, Sequence[float]]], title: str, label: str) -> Markup:
-    """Return a row a method, a bar at the median, a line at 1."""
-    values = [value for _, found in rows for value in found]
-    width, height = 640, ROW * len(rows) + 54
-    frame = Frame(spanning([0, 1, *values]), Axis(0, len(rows)), width, height)
-    parts = []
-    for tick in frame.x.ticks():
-        x, y = frame.place(tick, 0)
-        parts.append(f'<text x="{x:.1f}" y="{y + 16:.1f}" text-anchor="middle">{tick:g}</text>')
-    (x, low), (_, high) = frame.place(1, 0), frame.place(1, len(rows))
-    parts.append(f'<line class="mark" x1="{x:.1f}" x2="{x:.1f}" y1="{low:.1f}" y2="{high:.1f}"/>')
-    for place, (name, found) in enumerate(rows):
-        _, y = frame.place(0, len(rows) - place - 0.62)
-        parts.append(f'<text x="{LEFT}" y="{y - 14:.1f}">{escape(name)}</text>')
-        parts += [_shape(frame.place(value, 0)[0], y, place + 1) for value in found]
-        if found:
-            x = frame.place(median(found), 0)[0]
-            parts.append(f'<line class="median" x1="{x:.1f}" x2="{x:.1f}" y1="{y - 10:.1f}" y2="{y + 10:.1f}"/>')
-    parts.append(f'<text class="axis" x="{width / 2:.0f}" y="{height - 6}" text-anchor="middle">{escape(label)}</text>')
-    said = "; ".join(f"{name}: median {median(found):.3g} of {len(found)}" for name, found in rows if found)
-    return picture(width, height, title, said, "".join(parts))
-
-
-def word(outputs: Sequence[Sequence[str]], title: str) -> Markup | None:
-    """Return stems of each output over k; None where an output is no rational number, or there is nothing to draw."""
-    try:
-        numbers = [[float(Fraction(value)) for value in row] for row in outputs]
-    except ValueError:
-        return None
-    if not numbers or not numbers[0]:
-        return None
-    count, channels = len(numbers), len(numbers[0])
-    frame = Frame(Axis(-0.5, count - 0.5), spanning([0, *(value for row in numbers for value in row)]), WIDTH, 200)
-    parts = [frame.grid("sample k", "r(k)", range(count))]
-    (left, zero), (right, _) = frame.place(-0.5, 0), frame.place(count - 0.5, 0)
-    parts.append(f'<line class="zero" x1="{left:.1f}" x2="{right:.1f}" y1="{zero:.1f}" y2="{zero:.1f}"/>')
-    for channel in range(channels):
-        for k, row in enumerate(numbers):
-            x, y = frame.place(k + 0.16 * (channel - (channels - 1) / 2), row[channel])
-            parts.append(
-                f'<line class="stem c{channel % 3 + 1}" x1="{x:.1f}" x2="{x:.1f}" y1="{zero:.1f}" y2="{y:.1f}"/>{_shape(x, y, channel + 1)}'
-            )
-    series = [Series(f"output {channel + 1}", [row[channel] for row in numbers], channel + 1) for channel in range(channels)]
-    return _with_legend(WIDTH, 200, title, series, "".join(parts))
 
 
 def _drawn(frame: Frame, points: Sequence[float], series: Sequence[Series]) -> str:

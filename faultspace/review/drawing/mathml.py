@@ -1,5 +1,6 @@
 """Numbers, polynomials and matrices, given as texts, in MathML, which browsers set by themselves.
 
+typeset   the rows of a matrix as it takes them
 number    the MathML of one entry, such as -3/4 or 4 a^3 - a + 1
 matrix    a matrix of such entries, with a name before it where there is one
 """
@@ -7,10 +8,10 @@ matrix    a matrix of such entries, with a name before it where there is one
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from markupsafe import Markup, escape
+from markupsafe import Markup
 
 TOKENS = re.compile(r"(?P<fraction>\d+/\d+)|(?P<number>\d+(?:\.\d+)?)|(?P<power>[A-Za-z]\^\d+)|(?P<letter>[A-Za-z])|(?P<sign>[-+*()])|\s+")
 SHAPES = {
@@ -53,6 +54,6 @@ def words(found: Mapping[str, Any]) -> str:
     return "[" + ", ".join("[" + ", ".join(row) + "]" for row in found["entries"]) + "]"
 
 
-def expression(text: str) -> Markup:
-    """Return `<math>` with one entry or polynomial."""
-    return Markup('<math aria-label="{}">{}</math>').format(escape(text), number(text))
+def typeset(rows: Sequence[Sequence[str]]) -> dict[str, Any]:
+    """Return the matrix of these entries as `matrix` takes it."""
+    return {"rows": len(rows), "columns": len(rows[0]) if rows else 0, "entries": rows}

@@ -25,7 +25,7 @@ class Alarm:
 
 def alarms(claims: list[ClaimView], records: Records) -> list[Alarm]:
     """Return whatever is not as expected: verdicts first, then what they rest on."""
-    return [*_verdicts(claims), *_hypotheses(records), *_certificates(records), *_literature(records), *_controls(records)]
+    return [*_verdicts(claims), *_hypotheses(records), *_certificates(records), *_controls(records)]
 
 
 def _verdicts(claims: list[ClaimView]) -> Iterator[Alarm]:
@@ -68,19 +68,6 @@ def _certificates(records: Records) -> Iterator[Alarm]:
     missing = [f"{kind}-{digest[:SHORT]}" for digest, kind in named.items() if digest not in records.run.certificates]
     if missing:
         yield Alarm("certificates", f"{len(missing)} that the run names are not in its folder, {missing[0]} for one", "#certificates")
-
-
-def _literature(records: Records) -> Iterator[Alarm]:
-    for one in (records.run.literature or {}).get("claims", []):
-        if not agrees(one["verdict"], one["expected"]):
-            yield Alarm(
-                f"{one['id']} over {one['field']}", f"the verdict is {one['verdict']}, {one['expected']} was expected", "#literature"
-            )
-
-
-def agrees(verdict: str, expected: str | None) -> bool:
-    """Return whether a verdict on a statement of the field is the expected one; what is PROVED is NOT REFUTED, too."""
-    return expected in (None, verdict) or (verdict, expected) == ("PROVED", "NOT REFUTED")
 
 
 def _controls(records: Records) -> Iterator[Alarm]:

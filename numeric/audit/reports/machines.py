@@ -34,7 +34,7 @@ def endpoint(results: Sequence[CheckResult]) -> dict[str, Any]:
 
 
 def svg(results: Sequence[CheckResult]) -> str:
-    """Return the picture: the label on grey, the count of musts that passed on green, or on red where one failed."""
+    """Return the picture: the label on grey, the count of musts that passed on green, or on red where one failed or none passed."""
     message = _message(results)
     left, right = (2 * MARGIN + LETTER * len(text) for text in (LABEL, message))
     title = escape(f"{LABEL}: {message}")
@@ -51,7 +51,7 @@ def svg(results: Sequence[CheckResult]) -> str:
 
 
 def _colour(results: Sequence[CheckResult]) -> str:
-    return RED if any(one.failed for one in results) or not results else GREEN
+    return GREEN if any(one.verdict == Status.PASS for one in results) and not any(one.failed for one in results) else RED
 
 
 _NO_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")

@@ -199,11 +199,12 @@ def lengths_and_lags(sources: Sequence[Pieces], n: int, lags: int | None) -> tup
     p, n_u = shapes[0][0][1:]
     carried = longest_lag(lengths, p, n_u) if lags is None else positive(lags, "lags")
     least = max(1, -(-n // p)) if n else 0
+    if carried < least and lags is not None:
+        raise InvalidData(f"lags: got {lags}; order {n} with {counted(p, 'output')} needs {least} or more: pass more lags")
     if carried < least:
         raise InvalidData(
             f"{counted(sum(lengths), 'sample')} of {counted(p, 'output')} and {counted(n_u, 'input')} carry "
-            f"{counted(max(carried, 0), 'lag')}, order {n} needs {least} or more: record "
-            "more" + ("" if lags is None else ", or pass more lags")
+            f"{counted(max(carried, 0), 'lag')}, order {n} needs {least} or more: record more"
         )
     return lengths, carried
 

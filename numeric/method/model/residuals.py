@@ -136,8 +136,8 @@ def residual(
     Raises
     ------
     InvalidData
-        NaN, unequal lengths, channels that do not fit the model, fewer than n samples; a given x0 with a model whose modes grow by more
-        than FORWARD over the record.
+        NaN, unequal lengths, channels that do not fit the model; where x0 is fitted, no more samples (N p of all outputs) than states; a
+        given x0 with a model whose modes grow by more than FORWARD over the record.
 
     Examples
     --------

@@ -144,7 +144,7 @@ def fault_dimension(r: ArrayLike | Stored, *, block_rows: int | None = None, u: 
     Raises
     ------
     InvalidData
-        NaN, constant or too few samples, u of another length.
+        NaN, too few samples, outputs that are all constant, u of another length.
 
     Examples
     --------
@@ -223,14 +223,15 @@ def _block_rows(r: Array, block_rows: int | None, n_u: int) -> int:
             raise InvalidData(
                 f"r has {counted(samples, 'sample')} of {counted(p, 'channel')}: windows of "
                 f"{wanted} + 1 samples need at least {(wanted + 1) * width - 1}; "
-                f"{hint}try block_rows <= {max(most, 0)} or more samples"
+                f"{hint}{f'try block_rows <= {most} or' if most > 0 else 'give'} more samples"
             )
         return wanted
     if most < LEAST_RUN:
         hint = "r has more channels than samples: pass it as (N, p), r.T; otherwise " if p > samples else ""
+        fewer = " or fewer channels" if samples >= (LEAST_RUN + 1) * (2 * (1 + n_u) + 1) - 1 else ""
         raise InvalidData(
             f"r has {counted(samples, 'sample')} of {counted(p, 'channel')}: at least {(LEAST_RUN + 1) * width - 1} samples are needed to "
-            f"see {LEAST_RUN} gaps; {hint}give more samples or fewer channels"
+            f"see {LEAST_RUN} gaps; {hint}give more samples{fewer}"
         )
     return min(DEFAULT_BLOCK_ROWS, most, max(2 * LEAST_RUN, LARGEST_HANKEL // (p + n_u) - 1))
 

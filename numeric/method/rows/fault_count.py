@@ -158,7 +158,7 @@ def count_faults(
     Raises
     ------
     InvalidData
-        Shapes that do not fit, records too short for rows of degree order + 3, outputs that are constant, or combinations of others up to
+        Shapes that do not fit, records too short for rows of degree order + 1, outputs that are constant, or combinations of others up to
         rounding.
 
     Examples

@@ -88,7 +88,7 @@ def fault_space_by_rows(
         rows left out.
     A, C : array_like, (n, n) and (p, n)
     n_v : int
-        Number of faults, 1 to p - 1.
+        Number of faults, 1 to p - 1; of p faults the answer is one that means nothing, with a reason.
     noise_level : float or (p,), optional
         Deviations of the noise in units of y, of which only the ratios matter, by default those of the outputs: the root of `noise_power`
         of `count_faults` serves.
@@ -104,7 +104,8 @@ def fault_space_by_rows(
     Raises
     ------
     InvalidData
-        Shapes that do not fit, n_v outside 1 .. p, records too short for rows of degree n + 1.
+        Shapes that do not fit, n_v outside 1 .. p, records too short for p - n_v rows whose degrees add up to one more than the states that
+        the outputs show.
 
     Examples
     --------

@@ -10,7 +10,7 @@
                           left-invertible its dimension counts the finite zeros
     delay, state known    least l such that r(0..l) determines v(0) when x(0) is known [SM69]
     delay, state unknown  least l <= n such that r(0..l) determines v(0) whatever x(0) is; None where there is none
-                          [HP98], [MZ10], [K11]
+                          [HP98], [MZ10]
 
 Ranks in floats are opinions: a tall system that almost has a zero is reported without it. The exact branch decides
 such questions for rational matrices.

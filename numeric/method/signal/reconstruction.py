@@ -156,8 +156,8 @@ def reconstruct_fault(
     Raises
     ------
     InvalidData
-        Shapes that do not fit, values that are not finite, more faults than outputs, a fault without any effect, a model so unstable that
-        the record overflows.
+        Shapes that do not fit, values that are not finite, no fault or more than outputs, a fault with zero columns in both F and G, a
+        model so unstable that the record overflows.
 
     Examples
     --------

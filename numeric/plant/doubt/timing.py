@@ -7,8 +7,8 @@ held_doubts     inputs that change at every h-th sample alone
 
 A pole z is exp(s) of a pole s of the plant, in samples: the mode dies out with the time constant -1 / Re s, and its course, turning
 included, takes 1 / |s|. A record of N samples holds N over its time constant of a mode; below LEAST_CONSTANTS it is told to be short for
-the mode. The rule of thumb for sampling is ten samples to the course of the fastest mode that matters [L99, ch. 13]; where all modes take
-more than TOO_FAST samples, sampling is called fast.
+the mode. A rule of thumb of ours is ten samples to the course of the fastest mode that matters ([L99, ch. 13] on how to choose); where all
+modes take more than TOO_FAST samples, sampling is called fast.
 
 A delay is told where Markov parameters k = 0 .. d - 1 of one output to one input, d >= 2, are none of them seen, and are all surely smaller
 than the next: their sizes and FAR standard errors together stay below what is left of the next without FAR of its own. FAR is such that the

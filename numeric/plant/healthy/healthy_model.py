@@ -52,7 +52,7 @@ from .largest_root import largest_root_quantile
 Complex = NDArray[np.complex128]
 
 HEALTHY_LEVEL = 0.001
-LEAST_SAMPLES = 64
+LEAST_SAMPLES = 256
 MANY_TAPERS = 16
 FEW_TAPERS = 4
 FREEDOM = 4
@@ -258,8 +258,8 @@ def healthy_reference(healthy: ArrayLike, u: ArrayLike | None = None, *, level: 
     Raises
     ------
     InvalidData
-        NaN, fewer than 64 samples a channel, channels that are constant or exact combinations of others (there is no noise to compare with;
-        `fault_dimension` counts the faults of such residuals).
+        NaN, fewer than 256 samples or 64 a channel, channels that are constant or exact combinations of others (there is no noise to
+        compare with; `fault_dimension` counts the faults of such residuals).
 
     Examples
     --------
@@ -271,11 +271,11 @@ def healthy_reference(healthy: ArrayLike, u: ArrayLike | None = None, *, level: 
     """
     residual, inputs = residual_and_inputs(healthy, u)
     samples, p = residual.shape
-    if samples < LEAST_SAMPLES * max(p, 4):
-        hint = "it looks transposed, pass healthy.T" if p > samples else "record more, or take fewer channels"
-        raise InvalidData(
-            f"healthy has {counted(samples, 'sample')} of {counted(p, 'channel')}; at least {LEAST_SAMPLES * max(p, 4)} are needed: {hint}"
-        )
+    needed = max(LEAST_SAMPLES, LEAST_SAMPLES // 4 * p)
+    if samples < needed:
+        hint = "record more, or take fewer channels" if samples >= LEAST_SAMPLES else "record more"
+        hint = "it looks transposed, pass healthy.T" if p > samples else hint
+        raise InvalidData(f"healthy has {counted(samples, 'sample')} of {counted(p, 'channel')}; at least {needed} are needed: {hint}")
     half = samples // 2
     reference = _learnt(residual, inputs)
     strains = {}

@@ -3,7 +3,7 @@
 A pole z of a sampled system is exp(s dt) of a pole s = ln(z) / dt of the plant, the principal value of the logarithm: faster oscillations
 than half the sampling rate, the Nyquist frequency, look like slower ones. The natural frequency is |s| / (2 pi), the damping -Re s / |s|,
 and the time constant -1 / Re s, negative where the mode grows. A negative real pole turns its sign at every sample and has no course
-between them: it is told as an oscillation at the Nyquist frequency.
+between them: it is told as an oscillation that turns at the Nyquist frequency, and its natural frequency is above that but for -1.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ MOST = 12  # modes that the summary tells
 
 @dataclass(frozen=True)
 class Mode:
-    """The mode of one real `pole`, or of the pair of one and its conjugate: natural `frequency` in hertz, `damping`, 1 for a pole that does
-    not oscillate, and `constant`, the time constant in seconds, infinite where it neither grows nor dies out."""
+    """The mode of one real `pole`, or of the pair of one and its conjugate: natural `frequency` in hertz, `damping`, for a pole that does
+    not oscillate 1, or -1 where it grows, and `constant`, the time constant in seconds, infinite where it neither grows nor dies out."""
 
     pole: complex
     frequency: float

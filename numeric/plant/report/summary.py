@@ -421,7 +421,10 @@ def advice(answer: Answer) -> list[str]:
         if answer.counted_by == "outputs and inputs" and answer.noise_level is None:
             lines.append("noise_level=SIGMA or healthy=K, where one is known: they tell faults in single outputs from noise")
     elif answer.fault_space is None or not answer.fault_space.meaningful:
-        lines.append("more outputs than independent faults: as many faults as outputs leave no relation to find F and G from")
+        if answer.n_v >= record.p:
+            lines.append("more outputs than independent faults: as many faults as outputs leave no relation to find F and G from")
+        else:
+            lines.append("a record in which the faults vary more, or a longer one: this one does not determine their space")
     else:
         if not answer.fault_space.decided:
             lines.append("more samples: the dimension of the fault space is a near thing; F, G and the signal follow where it is decided")

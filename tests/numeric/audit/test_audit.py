@@ -18,6 +18,7 @@ from faultspace.numeric.audit.checks.catalogue import all_checks, quick_checks
 from faultspace.numeric.audit.checks.refusals import same_output_twice
 from faultspace.numeric.audit.making.kinds_of_trouble import KINDS
 from faultspace.numeric.audit.records import CheckResult, Demand, Measurement, message, perform
+from faultspace.numeric.audit.reports.machines import endpoint
 from faultspace.numeric.audit.running import ExpectedFailure, audit, parametrize_with_checks
 from faultspace.numeric.audit.vectors.rationals import floats
 from faultspace.numeric.audit.vectors.shipped_vectors import shipped
@@ -226,9 +227,12 @@ def test_what_was_never_promised_is_counted_apart(tmp_path: Path) -> None:
     mine.write_text(text, "utf-8")
     only = ["fault-dimension[two-faults]", "fault-dimension[bad-units]"]
     for adapter_ in (str(mine), load(str(mine))):
-        here, other = audit(adapter_, only=only)
+        here, other = told = audit(adapter_, only=only)
         assert (here.verdict, here.failed, here.not_promised) == ("fail", False, "one fault only")
         assert (other.verdict, other.failed, other.not_promised) == ("fail", True, "")
+        assert told.title.endswith(": 1 failed, 1 not met that it never promised")
+        nothing_passed = endpoint([here])
+        assert nothing_passed["message"] == "0 of 1 passed" and nothing_passed["color"] == endpoint([other])["color"]
     with pytest.raises(InvalidData, match="NOT_PROMISED"):
         audit(SimpleNamespace(fault_dimension=len, NOT_PROMISED={"*": " "}))
 
