@@ -468,12 +468,17 @@ def test_the_help_shows_arguments_as_they_are_typed(name: str) -> None:
         ("audit --memory inf", "--memory: got 'inf', expected a number from 0.5 on, try 4"),
         ("identify x --inputs u --outputs y --out x --dt 0", "--dt: got '0', expected a positive number, try 0.1"),
         ("inspect", "SYSTEM...: got none, expected one on the command line"),
-        ("verify x", "got x, expected no argument there"),
+        ("report x", "got x, expected no argument there"),
     ],
 )
 def test_an_option_is_refused_as_all_input_is(line: str, words: str) -> None:
     run = call(*line.split())
     assert (run.code, run.out) == (2, "") and run.err.startswith(f"faultspace: {words} (see: faultspace {line.split()[0]} --help)")
+
+
+def test_a_claim_without_its_option_gets_it() -> None:
+    run = call("verify", "theorem1")
+    assert (run.code, run.err) == (2, "faultspace: verify: got 'theorem1', expected options; try: faultspace verify --claim theorem-1\n")
 
 
 @pytest.mark.parametrize(

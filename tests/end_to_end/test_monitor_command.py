@@ -172,7 +172,7 @@ def test_a_gap_in_the_stream_of_an_unstable_plant(tmp_path: Path) -> None:
 
 def started(*words: str, stdin: int | None = None) -> subprocess.Popen[str]:
     """Start the command; a shell that starts the tests in the background may have told all its children to ignore interrupts."""
-    heard = "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "
+    heard = "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); signal.signal(signal.SIGHUP, signal.SIG_DFL); "
     line = [sys.executable, "-c", f"{heard}from faultspace.cli.command_line import main; sys.exit(main(sys.argv[1:]))", "monitor", *words]
     return subprocess.Popen(line, stdin=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=ROOT, env=environment(), text=True)
 
