@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -217,7 +218,7 @@ def _result(reading: Reading, verdict: Verdict = Verdict.CERTIFIED) -> ReadingRe
 def _machine(monkeypatch: pytest.MonkeyPatch, answer: Callable[[Iterable[str]], Theorems]) -> verification._Machine:
     monkeypatch.setattr(verification, "machine_checked", lambda names, progress: answer(names))
     claim = Claim("c", "", "", "CERTIFIED", (), False, (NAMED,))
-    return verification._theorems([claim], lambda stage, done, total: None)
+    return verification._theorems([claim], lambda stage, done, total: None, rocq=True)
 
 
 def _raising(error: Exception) -> Callable[[Iterable[str]], Theorems]:
@@ -225,6 +226,25 @@ def _raising(error: Exception) -> Callable[[Iterable[str]], Theorems]:
         raise error
 
     return answer
+
+
+def test_no_theorem_is_compiled_unasked(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where none is compiled, the answer says so and how to have it; asked for, or compiled before, Rocq checks them."""
+    claim = Claim("c", "", "", "CERTIFIED", (), False, (NAMED,))
+    asked: list[bool] = []
+
+    def checked(names: Iterable[str], progress: object) -> Theorems:
+        asked.append(True)
+        return Theorems("8.16.1", dict.fromkeys(names, "statement"))
+
+    monkeypatch.setattr(verification, "machine_checked", checked)
+    monkeypatch.setattr(verification, "found", lambda: object())
+    for kept, rocq, called in ((None, False, False), (None, True, True), (Path("there"), False, True)):
+        asked.clear()
+        monkeypatch.setattr(verification, "kept_theory", lambda texts, kept=kept: kept)
+        machine = verification._theorems([claim], lambda stage, done, total: None, rocq=rocq)
+        assert bool(asked) == called and (machine.theorems is not None) == called
+        assert ("--rocq compiles them" in machine.message) == (not called)
 
 
 def test_a_reading_whose_theorems_were_checked_is_proved(monkeypatch: pytest.MonkeyPatch) -> None:

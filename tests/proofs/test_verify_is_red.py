@@ -43,7 +43,7 @@ def _no_systems(monkeypatch: pytest.MonkeyPatch) -> None:
 def verify(capsys: pytest.CaptureFixture[str]) -> tuple[int, Any]:
     """Returns the exit code of `faultspace verify --claim ... --json`, and what it prints."""
     capsys.readouterr()
-    code = verifying.run([CLAIM], effort="quick", jobs=1, out=None, recheck=False, as_json=True)
+    code = verifying.run([CLAIM], effort="quick", jobs=1, out=None, rocq=True, recheck=False, as_json=True)
     return code, json.loads(capsys.readouterr().out)
 
 
