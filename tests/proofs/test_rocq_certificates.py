@@ -161,6 +161,7 @@ def words_of(text: str) -> set[str]:
     return set(re.findall(r"[A-Za-z_]\w*", text))
 
 
+@pytest.mark.programs
 def test_no_string_of_a_certificate_reaches_rocq() -> None:
     sound = [text_of(certificate, exported) for certificate in small_ones()]
     words = set[str]().union(*(words_of(text or "") for text in sound))  # ours, and no others
@@ -179,6 +180,7 @@ def test_no_string_of_a_certificate_reaches_rocq() -> None:
     assert seen.keys() == COVERED and sum(seen.values()) > (10_000 if THOROUGH else 1_200)
 
 
+@pytest.mark.programs
 def test_a_pivot_that_carries_source_is_refused(tmp_path: Path) -> None:
     # It closed the definition of the rows, put another system under the name of the one in the statement, and wrote a file.
     theirs = dict((name, term) for name, _, term in exported(RANKS).definitions)
