@@ -107,6 +107,7 @@ def named_by_versions() -> dict[str, set[str]]:
 
 
 @pytest.mark.timeout(900)
+@pytest.mark.programs
 def test_every_file_requires_what_it_uses_and_nothing_else(theory: Path) -> None:
     required = needs(sources())
     idle = {name: sorted(required[name] - used(theory, name)) for name in required}
