@@ -15,6 +15,7 @@ from rich.console import Console
 from rich.text import Text
 
 from ..proofs.verdict.cards import Believed, Card, card, hold
+from ..proofs.verdict.picture import GROUPS
 from ..proofs.verdict.verdicts import ClaimResult, Verdict
 from .consoles import paragraph
 
@@ -27,7 +28,6 @@ STYLES = {
     Verdict.AMENDED: "magenta",
     Verdict.ERROR: "bold red",
 }
-GROUPS = {"paper": "Claims of the paper, as its review states them", "review": "Claims of the review", "ours": "Claims of ours"}
 
 
 def card_lines(shown: Card, readings: str, width: int = WIDTH) -> Iterator[str]:

@@ -22,6 +22,7 @@ from .ledger import sentences
 from .verdicts import ClaimResult, ReadingResult, Report, Verdict
 
 MOST_NAMED = 3  # theorems that a card names
+UNCHECKED = "The theorems behind this were not checked in this run."
 Put = Callable[[str, Any], None]
 Believed = Mapping[str, str | None] | None  # of a Report
 
@@ -74,7 +75,8 @@ def card(result: ClaimResult, believed: Believed = None) -> Card:
         named = {one.reading.id: one for one in result.readings}
         shown = [(named[name], sentence) for name, sentence in words.get("wrong", {}).items()]
         wrong = tuple(_wrong(one, sentence) for one, sentence in shown if one.outcome.certificates)
-        verdict, instead = words["verdict"], words["instead"]
+        unchecked = any(one.locks for one in result.readings) and not any(one.machine_checked for one in result.readings)
+        verdict, instead = f"{words['verdict']} {UNCHECKED}" if unchecked else words["verdict"], words["instead"]
     else:
         others = [one for one in result.readings if not one.as_expected]
         different = [f"{one.reading.id} is {one.outcome.verdict}, {one.expected} expected" for one in others]

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from faultspace.proofs.verdict.cards import card, hold
+from faultspace.proofs.verdict.cards import UNCHECKED, card, hold
 from faultspace.proofs.verdict.ledger import Claim, load, sentences
 from faultspace.proofs.verdict.verdicts import ClaimResult, Outcome, ReadingResult, Verdict
 from faultspace.proofs.verification import verify
@@ -43,6 +43,16 @@ def test_a_card_says_nothing_where_a_verdict_is_another_one(name: str) -> None:
     shown = card(found(claim, {first.id: other}))
     assert shown.verdict.startswith(f"NOT as expected: {first.id} is {other}, ") and (shown.instead, shown.wrong) == ("", ())
     assert card(found(claim, {})).verdict == sentences()[name]["verdict"]
+
+
+def test_a_card_says_where_no_theorem_was_checked() -> None:
+    """Its sentence says more than certificates show; in a run without Rocq it is not said alone."""
+    whole = found(CLAIMS["theorem-1"], {})
+    locked = replace(whole, readings=tuple(replace(one, locks={"a": "0" * 64}) for one in whole.readings))
+    assert card(locked).verdict == f"{sentences()['theorem-1']['verdict']} {UNCHECKED}" and "in this run it has not" in card(locked).why[0]
+    checked = [(one, replace(one.outcome, verdict=Verdict(one.reading.proved))) for one in locked.readings]
+    proved = tuple(replace(one, outcome=outcome, machine_checked=True) for one, outcome in checked)
+    assert card(replace(locked, readings=proved)).verdict == sentences()["theorem-1"]["verdict"]
 
 
 def test_the_numbers_are_those_of_the_certificates() -> None:

@@ -118,10 +118,13 @@ def _where(answer: Answer) -> str:
 
 def _size(answer: Answer) -> str:
     mean, sizes, count = answer.mean, answer.sizes, answer.count
-    if mean is not None and mean.shifted and mean.shift is not None:
-        return "the mean moves by " + _by_name(answer, mean.shift, "{:.3g}")
+    moved = (
+        [] if mean is None or not mean.shifted or mean.shift is None else [f"the mean moves by {_by_name(answer, mean.shift, '{:.3g}')}"]
+    )
     if answer.onset is not None and answer.onset.onsets:
-        return _by_name(answer, answer.onset.onsets[0].size, "{:.2g}") + " deviations of the residual before"
+        return "; ".join([f"{_by_name(answer, answer.onset.onsets[0].size, '{:.2g}')} deviations of the residual before", *moved])
+    if moved:
+        return moved[0]
     if not answer.at_least or sizes is None:
         return NONE
     deviation = sizes.early_norm / np.sqrt(max(answer.modelled, 1))
